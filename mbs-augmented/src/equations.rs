@@ -4,7 +4,8 @@
 //! T = M + damping C + stiffness K + J^T s J,      f = M x + J^T mu - force Q
 //! ```
 //!
-//! The rows J' that the factored matrix was made from are stored beside the factor. Projections and later corrections may use either J or J'.
+//! The rows J' from which the factored matrix was made are stored beside the factor. Projections and later corrections may use either J or
+//! J'.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,12 +14,12 @@ use mbs_core::model::{Load, Model, System, Tangent, Terms};
 use mbs_core::step::Counts;
 use mbs_core::{FactorError, Real, SpdSolver};
 
-/// Matrix of a step with its factor, right-hand side and terms of the model.
+/// Matrix T of a step with its factor, the right-hand side and the terms of the model.
 #[derive(Debug, Clone)]
 pub(crate) struct Equations<T, S> {
     pub(crate) solver: S,
     pub(crate) terms: Terms<T>,
-    /// Right-hand side f before a solution, minus the correction after it; one number for each unknown.
+    /// Right-hand side f before a solution, and the negative correction -d after it; one number for each unknown.
     pub(crate) f: Vec<T>,
     /// Multipliers mu of a residual, or a product of the Jacobian; one number for each row.
     pub(crate) mu: Vec<T>,
@@ -103,7 +104,7 @@ impl<T: Real, S: SpdSolver<T>> Equations<T, S> {
         swap(&mut self.terms.jacobian, &mut self.factored_rows);
     }
 
-    /// Stores f while `work` makes another residual, then sets f to the sum of both.
+    /// Stores f, runs `work`, which makes another residual in f, and then sets f to the sum of both.
     pub(crate) fn add_to_residual<M: Model<T>>(&mut self, model: &M, work: impl FnOnce(&mut Self)) {
         let n = self.f.len();
         self.room[..n].copy_from_slice(&self.f);

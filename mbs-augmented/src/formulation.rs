@@ -1,4 +1,4 @@
-//! Common trait of formulations for this crate: [`Augmented`].
+//! Implementation of the common trait of formulations by this crate: [`Augmented`].
 
 use crate::history::History as OfWorkspace;
 use crate::index_change::{ConstraintIndex, IndexChange, IndexHistory};
@@ -225,7 +225,7 @@ impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Augmented<T, S, W> 
     }
 }
 
-/// Passes all that the next step continues from to a visitor.
+/// Passes all data on which the next step depends to a visitor.
 fn walk<T: Real>(
     own: &mut OfWorkspace<T>,
     form: &mut Form<T>,

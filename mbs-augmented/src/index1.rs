@@ -23,13 +23,14 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, largest, largest_or_nan}
 use mbs_core::team::{add_product, norm_inf, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// Multiple of the allowed iterations that are made while the last correction is not small [-]. Friction, and stiff effects that are
-/// released, need them.
+/// Factor on the allowed number of iterations while the last correction is not small [-]. Friction and suddenly released stiff effects need
+/// more iterations.
 const HARD: u32 = 8;
-/// Largest correction at which an iteration without convergence is accepted, relative to the accelerations [-]. A joint that sticks and slips
-/// leaves corrections of this size.
+/// Largest correction, relative to the accelerations, with which an iteration is accepted that does not converge [-]. A joint that sticks
+/// and slips leaves corrections of this size.
 const ACCEPTED: f64 = 1e-2;
-/// Corrections of [`settle`] at most [-]. The first one leaves 1e-6 of an acceleration, the others reduce it to machine precision.
+/// Largest number of corrections of [`settle`] [-]. The first correction leaves 1e-6 of an acceleration. The others reduce the error to
+/// machine precision.
 const MAX_SETTLING: u32 = 12;
 
 /// Advances `s` by one [`Step`].
@@ -56,7 +57,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     })
 }
 
-/// Iterates on the accelerations; `size` is that of the last step's accelerations. Returns the report of the iteration.
+/// Iterates on the accelerations; `size` is the size of the accelerations in the last step. Returns the report of the iteration.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     (rule, size, length): (&Rule<T>, T, T),
@@ -66,8 +67,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let moved = norm_inf(model.team(), &s.v) / rule.dt * T::EPSILON;
     let goal = size.max(moved) * options.tolerance;
-    // A correction that no longer shrinks, or that remains after the allowed iterations, is accepted if it is small relative to the
-    // accelerations or to the coordinates.
+    // A correction is accepted if it is small relative to the accelerations or to the coordinates. This applies to a correction that no
+    // longer shrinks, and to the last allowed one.
     let digits = length * options.tolerance * rule.acceleration;
     let enough = |w: &Workspace<T, S>| {
         size.max(norm_inf(model.team(), &w.end.a)) * T::from_f64(ACCEPTED) + digits
@@ -98,7 +99,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok((iterations, correction, stop.unwrap_or(Stop::Tolerance)))
 }
 
-/// Makes velocities, accelerations and multipliers consistent at the present positions [P2 (5)], before a change of index. Positions stay.
+/// Makes velocities, accelerations and multipliers consistent at the present positions [P2 (5)], before a change of index. Positions do not
+/// change.
 ///
 /// Cost: one or two factorisations and a few solutions; no allocation.
 ///
@@ -111,7 +113,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
-    // With a step of zero length nothing moves, and stiffness and damping do not enter the matrix.
+    // In a step of zero length nothing moves. So stiffness and damping are not part of the matrix.
     let zero = T::ZERO;
     let rule =
         Rule { dt: zero, velocity: zero, acceleration: T::ONE, auxiliary: zero, alpha_f: zero };
@@ -142,7 +144,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(())
 }
 
-/// Solves for accelerations and multipliers at the terms as evaluated.
+/// Solves for accelerations and multipliers with the terms of the last evaluation.
 fn settle_accelerations<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     length: T,
@@ -189,7 +191,7 @@ fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
     if model.has_forces() {
-        // The projections use the factor of the mass alone, so stiffness and damping need another factor.
+        // The factor for the projections contains the mass alone. Stiffness and damping need another factor.
         w.end.evaluate_forces(model, &mut w.equations.terms);
         w.factor(model, rule, false)?;
     }

@@ -12,8 +12,8 @@
 //! Projections are in correction form, and one sweep is enough where only constraints act.
 //!
 //! A factor is reused while stiffness and damping are close to those that were factored. The term s phi then uses the factored rows J', and
-//! multipliers grow by lambda <- lambda + s (phi + J' d). Where effects act, a fraction of the first correction may be left. docs/INDEX3.md
-//! derives these differences. The published forms are in [`printed`](crate::printed).
+//! multipliers grow by lambda <- lambda + s (phi + J' d). Where effects act, the iteration may end when the remaining correction is a small
+//! fraction of the first one. docs/INDEX3.md derives these differences. The published forms are in [`printed`](crate::printed).
 
 mod project;
 
@@ -32,8 +32,8 @@ use project::project;
 
 /// Advances `s` by one [`Step`].
 ///
-/// Cost where only constraints act and all are well determined: about three evaluations, a factorisation and five back-substitutions. In
-/// other steps: two factorisations and eight back-substitutions or more. No allocation.
+/// Cost where only constraints act and all of them are well determined: about three evaluations, a factorisation and five
+/// back-substitutions. In other steps: at least two factorisations and eight back-substitutions. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -74,7 +74,7 @@ pub(crate) fn solve<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if has_loose_rows(model, (options, start), w) {
         filter(model, &mut w.equations, (&w.scale.weights, &mut w.lambda));
     }
-    // the iteration has a/a' as its unknown: multiply by a'
+    // the iteration has a/a' as its unknown, so the result is multiplied by a'
     w.end.scale_accelerations(model, rule.acceleration);
     Ok(done)
 }
@@ -108,8 +108,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        // At predicted positions the contradiction of dependent rows cannot be separated from the determined part. The multipliers then stay,
-        // and the next correction updates them.
+        // At predicted positions, the contradiction between dependent rows cannot be separated from the violation that a correction
+        // removes. The multipliers then keep their values, and the next correction updates them.
         let is_predicted = newton.iterations == 0 && has_loose_rows(model, (options, start), w);
         let Workspace { equations: eq, end, lambda, scale, .. } = w;
         if is_reused && is_balanced {
@@ -169,7 +169,7 @@ fn adapt<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(())
 }
 
-/// Must multipliers be filtered, because constraints may leave a part of them undetermined?
+/// True if multipliers must be filtered, because constraints may leave a part of them undetermined.
 fn is_filtered<T: Real, S: SpdSolver<T>>(
     (options, start): (&Options<T>, MultiplierStart),
     w: &Workspace<T, S>,
@@ -179,14 +179,14 @@ fn is_filtered<T: Real, S: SpdSolver<T>>(
     start == Filtered && !is_well_conditioned
 }
 
-/// May rows of velocities depend on other rows, such as those of two wheels on one axle?
+/// True if rows of velocities may depend on other rows, such as those of two wheels on one axle.
 ///
-/// For these rows phi = h/2 J v contradicts the other rows by the rule's error of order h^3, which no correction removes. Each correction
-/// adds s times this error to multipliers that no constraint determines. Such multipliers act on the motion once the rows have rotated. So
-/// multipliers are filtered after each correction.
+/// For these rows phi = h/2 J v, where h is the step. It contradicts the other rows by the rule's error of order h^3, which no correction
+/// removes. Each correction adds s times this error to multipliers that no constraint determines. Such multipliers act on the motion after
+/// the rows have rotated. So multipliers are filtered after each correction.
 ///
-/// Rows depend on each other exactly only at positions that satisfy the constraints. At predicted positions the combination looks weak. So
-/// the matrix is factored again after the first correction, and penalties are not raised for the combination.
+/// Rows depend on each other exactly only at positions that satisfy the constraints. At predicted positions their combination looks weakly
+/// determined. So the matrix is factored again after the first correction, and penalties are not raised for the combination.
 fn has_loose_rows<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     how: (&Options<T>, MultiplierStart),

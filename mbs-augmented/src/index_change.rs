@@ -1,8 +1,8 @@
 //! Choice of the index in which a step is made [P2 4, 5].
 //!
-//! Long steps are made in index-3, short steps in index-1. The index changes from 3 to 1 where the step falls below a threshold, or where
-//! several reductions of one step have not helped. It changes back where the step grows beyond twice the threshold. Before each change
-//! velocities, accelerations and multipliers are made consistent at the present positions [P2 (5)].
+//! Long steps are made in index-3, short steps in index-1. The index changes from 3 to 1 if the step falls below a threshold, or if several
+//! reductions of one step have not helped. It changes back if the step grows beyond twice the threshold. Before each change, velocities,
+//! accelerations and multipliers are made consistent at the present positions [P2 (5)].
 
 use crate::options::Options;
 use crate::workspace::Workspace;
@@ -20,12 +20,12 @@ pub enum ConstraintIndex {
     Three,
 }
 
-/// State of an [`IndexChange`] that the next step continues from.
+/// State of an [`IndexChange`] on which the next step depends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexHistory<T> {
     /// Index of the present equations.
     pub index: ConstraintIndex,
-    /// Changes of index so far.
+    /// Number of changes of index so far.
     pub changes: u32,
     /// Length of the last trial [s].
     pub tried: T,
@@ -33,11 +33,13 @@ pub struct IndexHistory<T> {
     pub last: T,
 }
 
-/// Step below which steps are made in index-1 [s]. In shorter steps of index-3, alpha phi is lost to rounding beside the multipliers.
+/// Step below which steps are made in index-1 [s]. In shorter steps of index-3, alpha phi is lost to rounding in the sum with the
+/// multipliers.
 const THRESHOLD: f64 = 1e-4;
 /// Multiple of the threshold beyond which steps are made in index-3 again [-]. The factor of two prevents a change of index in every step.
 const HYSTERESIS: f64 = 2.0;
-/// Reductions of one step in a row after which index-1 is tried [-]. With halvings, the step is then a sixteenth of the first trial.
+/// Number of reductions of one step in a row after which index-1 is tried [-]. With halvings, the step is then a sixteenth of the first
+/// trial.
 const MAX_REDUCTIONS: u32 = 4;
 
 /// Options of index-1 and index-3, with the rule that changes between the two forms.
@@ -51,7 +53,7 @@ pub struct IndexChange<T> {
     pub threshold: T,
     /// Multiple of the threshold beyond which steps are made in index-3 again [-].
     pub hysteresis: T,
-    /// Reductions of one step in a row after which index-1 is tried at any step (`maxite` in the flowchart of P2).
+    /// Number of reductions of one step in a row after which index-1 is tried at any step (`maxite` in the flowchart of P2).
     pub max_reductions: u32,
     /// Index of the present equations.
     index: ConstraintIndex,
@@ -92,13 +94,13 @@ impl<T: Real> IndexChange<T> {
         }
     }
 
-    /// Changes of index so far.
+    /// Number of changes of index so far.
     #[must_use]
     pub fn changes(&self) -> u32 {
         self.changes
     }
 
-    /// State that the next step continues from.
+    /// State on which the next step depends.
     #[must_use]
     pub fn history(&self) -> IndexHistory<T> {
         let Self { index, changes, tried, last, .. } = *self;
@@ -111,9 +113,10 @@ impl<T: Real> IndexChange<T> {
         (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);
     }
 
-    /// Chooses the index for a trial step, after `reductions` of the step in a row. Returns whether the index changed, and the state with it.
+    /// Chooses the index for a trial step, after `reductions` of the step in a row. Returns whether the index changed. A change also makes
+    /// the state consistent.
     ///
-    /// Where the state cannot be made consistent, the index stays and the workspace is restored to its saved state.
+    /// If the state cannot be made consistent, the index does not change and the workspace is restored to its saved state.
     pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -150,7 +153,7 @@ impl<T: Real> IndexChange<T> {
         self.tried = h;
     }
 
-    /// Accepts the last trial step. A later trial that is longer counts as grown.
+    /// Accepts the last trial step. A later trial that is longer than this step counts as grown.
     pub fn accept(&mut self) {
         self.last = self.tried;
     }

@@ -14,7 +14,8 @@ use mbs_core::{Real, SpdSolver};
 /// Start of the multipliers of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MultiplierStart {
-    /// Extrapolated from the last two steps [P3 (3)], then filtered. The part that no constraint determines would grow from step to step.
+    /// Extrapolated from the last two steps [P3 (3)], then filtered. Without the filter, the part that no constraint determines would grow
+    /// from step to step.
     Filtered,
     /// Extrapolated from the last two steps, and not filtered.
     Extrapolated,
@@ -23,7 +24,7 @@ pub(crate) enum MultiplierStart {
 }
 
 impl MultiplierStart {
-    /// Sets lambda at the end of a step of `dt` [s], times `unit`.
+    /// Sets lambda at the end of a step of length `dt` [s], times `unit`.
     pub(crate) fn set<T: Real, M: Model<T>>(
         self,
         model: &M,
@@ -77,8 +78,8 @@ pub(crate) fn update_multipliers<T: Real, M: Model<T>, S: SpdSolver<T>>(
 /// Balances multipliers with the projected accelerations `a`: sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q), with `lambda` in
 /// parts of `unit`. Needs T factored. Cost: one solve.
 ///
-/// lambda contains the error of the last correction, and so would the power of guides. Where multipliers grow as published, this error is
-/// alpha times the rounding error of phi (4e-4 N for 1 kg at a step of 1 ms).
+/// lambda contains the error of the last correction. Reactions and the power of guides would contain it too. If multipliers grow as
+/// published, this error is alpha times the rounding error of phi (4e-4 N for 1 kg at a step of 1 ms).
 pub(crate) fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     equations: &mut Equations<T, S>,

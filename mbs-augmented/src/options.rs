@@ -1,32 +1,34 @@
-//! Options that the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+//! Options that the caller chooses. Start from [`Options::index3`] or [`Options::index1`] and change the public fields as needed.
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::step::OptionError;
 
-/// Penalty c in double precision and finer [effective masses]. One sweep reduces a violation to 1e-6 of it, and 10 of 16 digits remain for
-/// the mass beside the penalty. Values of 1e2 to 1e8 work in regular motion.
+/// Penalty c in double precision and finer [effective masses]. One sweep reduces a violation to 1e-6 of its size. In the sum of mass and
+/// penalty, 10 of 16 digits remain for the mass. Values of 1e2 to 1e8 work in regular motion.
 const PENALTY: f64 = 1e6;
-/// Penalty c in coarser scalars [effective masses]: the square root of 1/EPSILON in f32. Half of the digits remain for the mass, half for the
-/// penalty.
+/// Penalty c in coarser scalars [effective masses]: the square root of 1/EPSILON in f32. Half of the digits remain for the mass, half for
+/// the penalty.
 const PENALTY_OF_SINGLE: f64 = 3e3;
 /// EPSILON from which a scalar counts as coarse [-]: between that of f64 and that of f32.
 const COARSE: f64 = 1e-12;
 /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-]. Corrections below it are rounding errors of the
 /// forces in most scenes.
 const TOLERANCE: f64 = 1e-10;
-/// The least tolerance [EPSILON]: six binary digits are left for rounding errors.
+/// Smallest allowed tolerance [EPSILON]: six binary digits are left for rounding errors.
 const MIN_TOLERANCE: f64 = 64.0;
 /// Fraction of the first correction that the iteration may leave where effects act [-]. At 1e-6 the energy error of a vehicle that steers at
 /// 30 m/s doubles; at 3e-7 it grows by a seventh.
 const TRUNCATION_SHARE: f64 = 3e-7;
-/// Iterations of index-3 at most [-]: steps through singular positions take up to 20.
+/// Largest number of iterations of index-3 [-]. Steps through singular positions take up to 20.
 const MAX_ITERATIONS: u32 = 40;
-/// Iterations of index-1 at most [-]. At a singular position, further iterations lead away from the solution.
+/// Largest number of iterations of index-1 [-]. At a singular position, further iterations lead away from the solution.
 const MAX_ITERATIONS_OF_INDEX1: u32 = 4;
-/// Sweeps of a projection in index-3 at most [-]. A contraction slower than a tenth raises penalties, so twelve sweeps give twelve digits.
+/// Largest number of sweeps of a projection in index-3 [-]. If a sweep leaves more than a tenth of the violation, penalties are raised. So
+/// twelve sweeps give twelve digits.
 const MAX_SWEEPS: u32 = 12;
-/// Sweeps of a projection in index-1 at most [-]. Its projections of positions start from larger violations than those of index-3.
+/// Largest number of sweeps of a projection in index-1 [-]. Its projections of positions start from larger violations than those of
+/// index-3.
 const MAX_SWEEPS_OF_INDEX1: u32 = 20;
 
 /// Options of a step in either index.
@@ -39,14 +41,14 @@ pub struct Options<T> {
     /// Tolerance of the iterations [-]. In index-3 it is relative to the displacement by accelerations in a step, in index-1 to the
     /// accelerations.
     pub tolerance: T,
-    /// Fraction of the first correction of a step below which the iteration of index-3 also ends where effects act [-].
+    /// The iteration of index-3 also ends below this fraction of the first correction of a step, where effects act [-].
     ///
-    /// It is compared with the predicted next correction, which counts as at least a tenth of the last one. The first correction is three
-    /// times the local error of the trapezoidal rule. With zero, or with a fixed alpha, the tolerance alone ends the iteration.
+    /// The fraction is compared with the predicted next correction, which counts as at least a tenth of the last one. The first correction
+    /// is three times the local error of the trapezoidal rule. With zero, or with a fixed alpha, the tolerance alone ends the iteration.
     pub truncation_share: T,
-    /// Iterations of a step at most; the step fails if they are not enough.
+    /// Largest number of iterations of a step. The step fails if they are not enough.
     pub max_iterations: u32,
-    /// Sweeps of a projection at most; the step fails if the violation is too large after them.
+    /// Largest number of sweeps in one projection. The step fails if the violation is still too large after them.
     pub max_sweeps: u32,
     /// Adds the geometric stiffness of the constraints to the tangent.
     pub geometric_stiffness: bool,
@@ -67,8 +69,8 @@ pub enum Penalty<T> {
 }
 
 impl<T: Real> Penalty<T> {
-    /// Returns the factor of a scaled penalty, or one for a fixed alpha. A fixed alpha is raised only inside a projection that would not
-    /// reach its limit otherwise.
+    /// Returns the factor of a scaled penalty, or one for a fixed alpha. A fixed alpha is raised only inside a projection that would
+    /// otherwise miss its limit.
     pub(crate) fn factor(&self) -> T {
         match self {
             Self::Scaled(factor) => *factor,
@@ -104,8 +106,8 @@ impl<T: Real> Options<T> {
 
     /// Returns the defaults of index-1: penalty 1e6 effective masses, at most 4 iterations.
     ///
-    /// At a singular position further iterations lead away from the solution. Eight times as many are made where the last correction is not
-    /// small.
+    /// At a singular position further iterations lead away from the solution. If the last correction is not small, eight times as many are
+    /// made.
     #[must_use]
     pub fn index1() -> Self {
         Self {

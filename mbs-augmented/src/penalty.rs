@@ -19,18 +19,18 @@ const MAX_CONTRACTION: f64 = 0.003;
 /// Contraction up to which a combination counts as well determined [-]. It is a third of the largest one, so that a search for other
 /// combinations begins in time.
 const WELL_DETERMINED: f64 = 0.001;
-/// Contraction below which raised penalties fall again, relative to the largest contraction [-]. A decade of distance prevents that they are
-/// raised again at once.
+/// Contraction below which raised penalties fall again, relative to `MAX_CONTRACTION` [-]. The distance of a factor of ten prevents that
+/// they are raised again at once.
 const FALLING: f64 = 0.1;
-/// Factor on raised penalties in each step in which they may fall [-]. A penalty factor of 1e8 is back at one after fourteen steps.
+/// Factor on raised penalties in each step in which they may fall [-]. A penalty factor of 1e8 falls to one in fourteen steps.
 const FALL: f64 = 0.25;
 /// Largest penalty, times EPSILON [effective masses]. Above it, the rounding errors of T^-1 look like a lost direction.
 const MAX_PENALTY: f64 = 0.2;
 /// Factor on penalties that were too small for a step [-], a power of two. On a logarithmic scale it is midway between the penalties of
-/// regular motion and the largest ones. Arms of parts without mass that friction holds need a factor of 100 or more. An arm of light rotors
-/// in a singular position needs 10,000.
+/// regular motion and the largest ones. Friction that holds arms of parts without mass needs a factor of 100 or more. An arm of light
+/// rotors in a singular position needs 10,000.
 const STRENGTHENED: f64 = 16_384.0;
-/// Smallest factor by which penalties are lowered at once, after T was not positive definite [-]: four binary digits.
+/// Smallest factor by which one trial lowers penalties, after T was not positive definite [-]. It is four binary digits.
 const LOWERING: f64 = 1.0 / 16.0;
 
 /// The penalties of a step.
@@ -44,7 +44,7 @@ pub(crate) struct PenaltyScale<T> {
     base: T,
     /// Factor on the penalty, adapted from step to step [-].
     pub(crate) factor: T,
-    /// Factor on the penalty after a step has failed; one before [-].
+    /// Factor on the penalty after a step has failed; 1 if none has failed [-].
     pub(crate) strength: T,
 }
 
@@ -97,7 +97,8 @@ impl<T: Real> PenaltyScale<T> {
         rows.filter(|(row, _)| model.is_velocity_row(*row)).for_each(|(_, s)| *s *= by);
     }
 
-    /// Makes the scaled penalties larger from now on, because they were too small for a step. Returns false if they were already larger.
+    /// Makes the scaled penalties larger for the following steps, because they were too small for a step. Returns false if they were
+    /// already larger.
     pub(crate) fn strengthen(&mut self) -> bool {
         let was_strengthened = self.strength > T::ONE;
         self.strength = T::from_f64(STRENGTHENED);
@@ -118,8 +119,8 @@ impl<T: Real> PenaltyScale<T> {
         T::from_f64(MAX_PENALTY) / T::EPSILON / (self.factor * self.base)
     }
 
-    /// Raises the penalties by rho / (1 - rho) / [`MAX_CONTRACTION`], where rho is `contraction`. A correction then leaves the largest
-    /// allowed fraction. The factor ends at the largest allowed penalty. Returns whether the penalties changed.
+    /// Raises the penalties by the factor rho / (1 - rho) / [`MAX_CONTRACTION`], where rho is `contraction`. A correction then leaves the
+    /// largest allowed fraction. The largest allowed penalty limits the factor. Returns whether the penalties changed.
     pub(crate) fn raise(&mut self, contraction: T) -> bool {
         let rho = contraction.min(T::ONE);
         let growth = rho / (T::ONE - rho).max(T::EPSILON) / T::from_f64(MAX_CONTRACTION);
@@ -130,8 +131,8 @@ impl<T: Real> PenaltyScale<T> {
         growth > T::ONE
     }
 
-    /// Factors W = M + J^T s J. Raised penalties may be so large that the mass is lost to rounding beside them. They are then lowered until W
-    /// is positive definite.
+    /// Factors W = M + J^T s J. Raised penalties may be so large that the mass is lost to rounding in this sum. They are then lowered until
+    /// W is positive definite.
     pub(crate) fn factor<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -148,14 +149,14 @@ impl<T: Real> PenaltyScale<T> {
     }
 }
 
-/// Estimate of the weakest combination of constraints, continued from step to step.
+/// Estimate of the weakest combination of constraints. Each step continues the iteration of the last step.
 #[derive(Debug, Clone)]
 pub(crate) struct PenaltyAdaptation<T> {
-    /// Weakest combination u: the one of which a correction leaves the largest fraction; one weight for each row.
+    /// Weakest combination u, of which a correction leaves the largest fraction; one weight for each row.
     pub(crate) weakest_combination: Vec<T>,
     /// Fraction rho of the weakest combination that one correction left in the last step [-].
     pub(crate) contraction: T,
-    /// Fixed combination of all rows, added to a well-determined u so that the iteration can find any other one.
+    /// Fixed combination of all rows. It is added to a well-determined u so that the iteration can find any other combination.
     probe_seed: Vec<T>,
 }
 
@@ -169,19 +170,19 @@ impl<T: Real> PenaltyAdaptation<T> {
         }
     }
 
-    /// Returns the penalty factor at the start of a step. A raised factor falls where the last step determined all combinations well.
+    /// Returns the penalty factor at the start of a step. A raised factor falls if all combinations were well determined in the last step.
     pub(crate) fn carried(&self, factor: T) -> T {
         let is_falling = self.contraction < T::from_f64(FALLING * MAX_CONTRACTION);
         if is_falling { (factor * T::from_f64(FALL)).max(T::ONE) } else { factor }
     }
 
-    /// Are penalties not raised, and does one correction leave little of every combination of multipliers?
+    /// True if penalties are not raised, and one correction leaves little of every combination of multipliers.
     pub(crate) fn is_well_conditioned(&self, scale: &PenaltyScale<T>) -> bool {
         scale.factor <= T::ONE && self.contraction <= T::from_f64(WELL_DETERMINED)
     }
 
-    /// Makes one power iteration for the weakest combination u of constraints, starting from that of the last step. A well-determined u first
-    /// gets a part of all rows, so that other combinations can be found.
+    /// Makes one power iteration for the weakest combination u of constraints, starting from that of the last step. If u is well
+    /// determined, a small multiple of a combination of all rows is first added to u, so that other combinations can be found.
     ///
     /// Raises the penalties until a correction leaves at most [`MAX_CONTRACTION`] of u. In two cases they are not raised. First, a combination
     /// that no allowed penalty determines is redundant. Second, if the model has rows of velocities, a redundant combination looks
@@ -222,14 +223,15 @@ impl<T: Real> PenaltyAdaptation<T> {
             u.fill(T::ZERO);
         }
         let most = T::from_f64(MAX_CONTRACTION);
-        // Not weak: a combination that even the largest penalty cannot determine. It is redundant, or so close to a singular position that its
-        // loss does no harm.
+        // A combination that even the largest penalty cannot determine does not count as weak. It is redundant, or so close to a singular
+        // position that its loss does no harm.
         let is_weak = rho > most && rho / (T::ONE - rho).max(T::EPSILON) < scale.room() * most;
         is_weak && !model.has_velocity_rows() && scale.raise(rho)
     }
 }
 
-/// Returns a fixed pseudo-random combination of all rows, up to one half for each row. No combination is orthogonal to it by symmetry.
+/// Returns a fixed pseudo-random combination of all rows, with weights of at most one half. So no combination is orthogonal to it by
+/// symmetry.
 fn probe_seed<T: Real>(m: usize) -> Vec<T> {
     let mut seed = 1_u32;
     let next = |_| {

@@ -14,11 +14,11 @@
 //! fraction 1 / (1 + s c^2 / m). Sweeps are repeated until the violation is below the limit of the level. A factored matrix close to W
 //! serves as well, because the fixed point of the sweeps does not depend on the matrix.
 //!
-//! A reused sweep takes the rows J' of the factor, which was made before the last small correction. With J^T on the right-hand side, d would
-//! get the part s (J - J')^T r / m along free directions. The penalty s amplifies that part, and only a second sweep would remove it. With
-//! J'^T on the right-hand side d has no such part. The sweep then leaves two parts of the violation r: the fraction that the penalties leave,
-//! and a fraction as large as the rotation of the rows. d is mass-orthogonal to directions that are off by the same rotation. Therefore the
-//! factor may be older by a small correction only.
+//! A reused sweep uses the rows J' of the factor, which was made before the last small correction. With J^T on the right-hand side, d would
+//! have the part s (J - J')^T r / m along free directions. The penalty s amplifies that part, and only a second sweep would remove it. With
+//! J'^T on the right-hand side d has no such part. The sweep then leaves two parts of the violation r. The first is the fraction that the
+//! penalties leave. The second is a fraction as large as the rotation of the rows since the factorisation. The same rotation is the error
+//! of the directions to which d is mass-orthogonal. Therefore only a small correction may separate the factor from the present positions.
 
 use crate::equations::Equations;
 use crate::penalty::PenaltyScale;
@@ -30,15 +30,15 @@ use mbs_core::step::StepError;
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract, sum};
 use mbs_core::{Real, SpdSolver};
 
-/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of the size of the vector]. The
-/// values are 2^13 for velocities and 2^21 for accelerations. Accelerations may be less exact, because the motion has them times the square
-/// of the step.
+/// Violation of velocities, and of accelerations, that a projection within a step may leave [EPSILON of the size of the vector]. The values
+/// are 2^13 for velocities and 2^21 for accelerations. Accelerations may be less exact, because they are multiplied by the square of the
+/// step in the motion.
 const LEFT: [f64; 2] = [8_192.0, 2_097_152.0];
-/// Contraction up to which a reused sweep is repeated [-]. After a slower sweep, sweeps with the present rows follow. They cost a
-/// factorisation's worth of residuals, but their contraction does not depend on the rotation of the rows.
+/// Largest contraction with which a reused sweep is repeated [-]. After a slower sweep, sweeps with the present rows follow. Their
+/// residuals cost as much as a factorisation, but their contraction does not depend on the rotation of the rows.
 const SLOW_REUSED: f64 = 0.01;
-/// Contractions of a sweep between which its correction is scaled to reduce the violation further [-]. Below the first value there is nothing
-/// to gain. Above the second one, the contraction differs too much between directions for one common scale.
+/// Smallest and largest contraction of a sweep whose correction is scaled to reduce the violation further [-]. Below the first value
+/// scaling has no benefit. Above the second one, the contraction differs too much between directions for one common scale.
 const SCALED: [f64; 2] = [0.01, 0.7];
 /// Contraction above which a sweep is slow and penalties are raised [-]. At this contraction ten sweeps reduce a violation by ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;
@@ -53,7 +53,7 @@ pub(crate) enum ProjectionStrategy {
 }
 
 impl ProjectionStrategy {
-    /// Returns the limits of a step's projection. Sweeps are repeated down to machine precision only where no effect acts.
+    /// Returns the limits of a step's projection. Only where no effect acts, sweeps are repeated down to machine precision.
     pub(crate) fn limits<T: Real, M: Model<T>>(
         self,
         model: &M,
@@ -115,7 +115,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.continue_from(0, limits, max_sweeps)
     }
 
-    /// Projects x with the rows of the factor. No sweep is made where the violation is at most `goal` from the start.
+    /// Projects x with the rows of the factor. No sweep is made if the violation is at most `goal` at the start.
     ///
     /// Sweeps are repeated until the violation is at most `enough`. After a slow sweep, sweeps with the present rows follow. The multipliers
     /// of accelerations are left in `sigma`. Returns the remaining violation.
@@ -154,7 +154,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.scratch.change.fill(T::ZERO);
     }
 
-    /// Sweeps with the present rows, after `done` sweeps of the other kind.
+    /// Makes sweeps with the present rows, after `done` sweeps of the other kind.
     fn continue_from(
         &mut self,
         done: u32,
@@ -198,7 +198,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.level.violation(self.model, terms, self.x, rates)
     }
 
-    /// Makes one sweep with the present rows. The mass enters the right-hand side only once x differs from x* (`is_changed`).
+    /// Makes one sweep with the present rows. The right-hand side contains the mass only if x already differs from x* (`is_changed`).
     pub(crate) fn sweep(&mut self, is_changed: bool) {
         let Projection { change, sigma, rates } = &*self.scratch;
         set_sum(self.model.team(), &mut self.equations.mu, sigma, (&self.scale.weights, rates));
@@ -235,10 +235,11 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         });
     }
 
-    /// Scales the last sweep with the present rows: x += k d, sigma += k s r. Returns the remaining violation.
+    /// Scales the last sweep with the present rows by 1 + k: x += k d, sigma += k s r. Returns the remaining violation.
     ///
-    /// With the factor of W, d and the multipliers are in balance, M d + J^T s r = 0, for every k. With another factor the imbalance is
-    /// small: a first sweep scales it by 1 + k, and later sweeps keep a fraction k of it. Needs the violation before the sweep in `mu`.
+    /// With the factor of W, d and the multipliers are in balance, M d + J^T s r = 0, for every k. With another factor there is a small
+    /// imbalance. A first sweep scales it by 1 + k, and later sweeps leave a fraction k of it. Needs the violation before the sweep in
+    /// `mu`.
     fn scale_last(&mut self) -> T {
         let Projection { sigma, rates, .. } = &mut *self.scratch;
         subtract(self.model.team(), &mut self.equations.mu, rates);
@@ -252,10 +253,11 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
         self.scale_correction(k)
     }
 
-    /// Scales the first sweep with the rows of the factor by the best k: x += k d, sigma += k sigma. Returns the remaining violation.
+    /// Scales the first sweep with the rows of the factor by 1 + k with the best k: x += k d, sigma += k sigma. Returns the remaining
+    /// violation.
     ///
-    /// The scaling helps because d is too short by nearly the same fraction in all rows. Needs the last `f` = -d, and for accelerations J' f
-    /// in `mu`.
+    /// The scaling helps because d is too short by nearly the same fraction in all rows. Needs the last `f` = -d, and for accelerations J'
+    /// f in `mu`.
     fn scale_first(&mut self) -> T {
         if self.level == ConstraintLevel::Velocity {
             self.equations.multiply_correction(self.model);
@@ -283,7 +285,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Projector<'_, T, M, S> {
     }
 }
 
-/// Returns the k with which a further correction k d leaves the smallest violation |r + k J d|. Returns zero where J d = 0.
+/// Returns the factor k of a further correction k d that leaves the smallest violation |r + k J d|. Returns zero where J d = 0.
 ///
 /// ```text
 /// k = -(r . J d) / (J d . J d),      mu = -J d

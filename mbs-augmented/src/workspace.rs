@@ -18,7 +18,7 @@ use mbs_core::{Real, SpdSolver};
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
     pub(crate) equations: Equations<T, S>,
-    /// The end of the step, whose accelerations are a/a' in index-3 and a in index-1.
+    /// The end of the step. The stored accelerations are a/a' in index-3 and a in index-1.
     pub(crate) end: StepEnd<T>,
     /// Multipliers, one for each row: lambda / a' in index-3, lambda in index-1.
     pub(crate) lambda: Vec<T>,
@@ -27,7 +27,7 @@ pub struct Workspace<T, S> {
     pub(crate) projection: Projection<T>,
     /// Energy of the penalties after the first correction [J].
     pub(crate) penalty_energy: T,
-    /// Counts of the work for a change of index before the step.
+    /// Counts of the work for a change of index that took place before the step.
     pub(crate) settled: Counts,
     saved: History<T>,
 }
@@ -72,13 +72,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.adaptation.weakest_combination.copy_from_slice(&self.saved.weakest_combination);
     }
 
-    /// Makes penalties that are proportional to masses larger until a [`restore`](Self::restore). Call it after a step failed, since its
-    /// penalties may be too small. Returns false if they were already larger.
+    /// Makes penalties that are proportional to masses larger until a [`restore`](Self::restore). Call it after a step has failed, because
+    /// the penalties of that step may be too small. Returns false if they were already larger.
     pub fn strengthen(&mut self) -> bool {
         self.scale.strengthen()
     }
 
-    /// State that the next step continues from.
+    /// State on which the next step depends.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let PenaltyAdaptation { weakest_combination, contraction, .. } = &self.adaptation;
@@ -104,12 +104,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         true
     }
 
-    /// The terms of the model as last evaluated.
+    /// The terms of the model at the last evaluation.
     pub fn terms(&self) -> &Terms<T> {
         &self.equations.terms
     }
 
-    /// Terms as last evaluated, for a caller that restores them.
+    /// Terms of the model at the last evaluation, for a caller that restores them.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.equations.terms
     }
@@ -141,7 +141,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.end.evaluate_forces(model, &mut self.equations.terms);
     }
 
-    /// Factors the tangent T. It contains the geometric stiffness if that is required and T stays positive definite.
+    /// Factors the tangent T. It contains the geometric stiffness if the options require that and T remains positive definite.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,

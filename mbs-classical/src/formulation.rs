@@ -1,4 +1,4 @@
-//! Common trait of formulations for this crate: [`Classical`], in index-3.
+//! Implementation of the common trait of formulations by this crate: [`Classical`], in index-3.
 
 use crate::index3;
 use crate::options::Options;
@@ -116,7 +116,7 @@ impl<T: Real, S, W: Team, const D: usize> Describe<T, D> for Classical<T, S, W> 
     }
 }
 
-/// Passes all that the next step continues from to a visitor.
+/// Passes all data on which the next step depends to a visitor.
 fn walk<T: Real>(terms: &mut Terms<T>, book: &mut Book<'_, T>) -> Restored {
     book.kind(1)?;
     book.laws(terms)

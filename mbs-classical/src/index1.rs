@@ -5,7 +5,7 @@
 //! [ J   0  ] ( lambda ) = ( -bias - 2 alpha phi' - beta^2 phi   )          [P1 (4)]; alpha = beta = 0 unless stabilised
 //! ```
 //!
-//! The system is solved together with the integrator, by corrections with W = M + (v'/a') C + (1/a') K in place of M:
+//! Corrections solve the system together with the equations of the integrator, with W = M + (v'/a') C + (1/a') K in place of M:
 //!
 //! ```text
 //! [ W  J^T    ] ( d        )     ( M a + J^T lambda - Q               )
@@ -24,7 +24,8 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Contraction of a violation of positions above which a sweep is useless [-].
+/// Contraction of a violation of positions above which a sweep is useless [-]. The contraction is the fraction of the violation that a
+/// sweep leaves.
 const USELESS: f64 = 0.9;
 
 /// Advances `s` by one [`Step`].
@@ -109,7 +110,7 @@ fn demand<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     }
 }
 
-/// Iterates on accelerations and multipliers. Returns the report of the iteration, whose corrections are those of the coordinates.
+/// Iterates on accelerations and multipliers. Returns the report of the iteration, in which the last correction is that of the coordinates.
 fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
     (rule, mut newton): (&Rule<T>, Newton<T>),

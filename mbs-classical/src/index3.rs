@@ -22,7 +22,8 @@ use mbs_core::step::{Step, StepError, StepReport, Stop, step_scale};
 use mbs_core::team::on_stretches;
 use mbs_core::{Real, SymmetricSolver};
 
-/// Last correction above which the matrix is factored again for the projections [length of the scene]. Its square is at machine precision.
+/// Last correction above which the matrix is factored again for the projections [length of the scene]. The square of this correction is at
+/// machine precision.
 const MAX_CORRECTION_OF_FACTOR: f64 = 1e-7;
 
 /// Advances `s` by one [`Step`].
@@ -47,10 +48,11 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let newton = Newton::new((scale, options.tolerance, length));
         let newton = iterate(model, (rule, newton), options, s, w)?;
 
-        // The iteration has a/a' as its unknown: multiply by a'.
+        // The iteration has a/a' as its unknown, so the result is multiplied by a'.
         let unit = rule.acceleration;
         w.end.scale_accelerations(model, unit);
-        // The factor belongs to the configuration before the last correction, which is close enough if that correction was small.
+        // The factor belongs to the configuration before the last correction. This configuration is close enough if that correction was
+        // small.
         if newton.1 > length * T::from_f64(MAX_CORRECTION_OF_FACTOR) {
             factor(model, rule, options, w)?;
         }

@@ -1,4 +1,4 @@
-//! Response of the state to inputs that were set since the last step, before the next step begins.
+//! Response of the state to inputs that were changed between two steps.
 
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};

@@ -1,4 +1,4 @@
-//! Options that the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+//! Options that the caller chooses. Start from [`Options::index3`] or [`Options::index1`] and change the public fields as needed.
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -7,16 +7,16 @@ use mbs_core::step::OptionError;
 /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-]. Corrections below it are rounding errors of the
 /// forces in most scenes.
 const TOLERANCE: f64 = 1e-10;
-/// The least tolerance [EPSILON]: six binary digits are left for rounding errors.
+/// Smallest allowed tolerance [EPSILON]: six binary digits are left for rounding errors.
 const MIN_TOLERANCE: f64 = 64.0;
-/// Iterations of a step at most [-]: regular steps need two or three.
+/// Largest number of iterations of a step [-]. Regular steps need two or three.
 const MAX_ITERATIONS: u32 = 20;
-/// Sweeps of a projection at most [-]. One sweep is exact unless the factor is from another configuration or delta is not zero.
+/// Largest number of sweeps of a projection [-]. One sweep is exact unless the factor is from another configuration or delta is not zero.
 const MAX_SWEEPS: u32 = 12;
-/// Weakest pivot of independent rows, relative to the sum of absolute values that the pivot is computed from [-]. Pivots are proportional to
-/// the square of the angle between rows, so rows within 1e-6 rad of dependence are refused.
+/// Smallest pivot of independent rows, relative to the sum of absolute values of its terms [-]. Pivots are proportional to the square of
+/// the angle between rows, so rows within 1e-6 rad of dependence are refused.
 const RANK: f64 = 1e-12;
-/// The least limit of the weakest pivot [EPSILON]: the cancellation error in a row of some hundred entries.
+/// Smallest allowed value of the option `rank` [EPSILON]. It is the cancellation error in a row of some hundred entries.
 const MIN_RANK: f64 = 300.0;
 
 /// Options of a step in either index.
@@ -26,12 +26,12 @@ pub struct Options<T> {
     pub integrator: Integrator<T>,
     /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
-    /// Iterations allowed in one step.
+    /// Largest number of iterations of one step.
     pub max_iterations: u32,
-    /// Sweeps of a projection at most; the step fails if the violation is too large after them.
+    /// Largest number of sweeps in one projection. The step fails if the violation is still too large after them.
     pub max_sweeps: u32,
-    /// Ratio of the weakest pivot of the equilibrated saddle matrix, to the sum of absolute values that it is computed from, below which rank
-    /// is lost [-].
+    /// Smallest allowed ratio of a pivot to the sum of absolute values of its terms, in the equilibrated saddle matrix [-]. If the weakest
+    /// pivot is below it, rank is lost.
     ///
     /// The ratio is proportional to the square of the sine of the angle between a row and the other rows. The default of 1e-12 refuses rows
     /// within 1e-6 rad of dependence. At larger angles, a step that may leave its branch is refused too.
@@ -39,10 +39,10 @@ pub struct Options<T> {
     /// Regularisation delta on the diagonal of the constraint rows, in units of 1 / (effective mass of the row) [-]. A value of 1e-8 allows
     /// redundant rows, at the cost of a few more sweeps.
     ///
-    /// The multipliers are iterated (proximal point method), so that delta does not change the solution. Steps through singular positions are
-    /// better without it. `None` sets delta to zero, and lost rank is then an error.
+    /// The multipliers are iterated (proximal point method), so that delta does not change the solution. Steps through singular positions
+    /// are better without delta. `None` sets delta to zero, and lost rank is then an error.
     pub regularisation: Option<T>,
-    /// Method that keeps index-1 on its constraints.
+    /// Method by which index-1 limits the violation of its constraints.
     pub stabilisation: Stabilisation<T>,
     /// Adds the geometric stiffness of the constraints to the tangent of index-3.
     pub geometric_stiffness: bool,
@@ -50,7 +50,7 @@ pub struct Options<T> {
     pub compensated: bool,
 }
 
-/// Method that keeps index-1 on its constraints.
+/// Method by which index-1 limits the violation of its constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation<T> {
     /// No stabilisation: the violation phi grows with time.
@@ -67,7 +67,7 @@ pub enum Stabilisation<T> {
 }
 
 impl<T: Real> Options<T> {
-    /// Returns the defaults of index-3: trapezoidal rule, tolerance 1e-10, at most 20 iterations, 2 or 3 are usual.
+    /// Returns the defaults of index-3: trapezoidal rule, tolerance 1e-10, at most 20 iterations. Two or three iterations are usual.
     #[must_use]
     pub fn index3() -> Self {
         Self {
@@ -83,7 +83,7 @@ impl<T: Real> Options<T> {
         }
     }
 
-    /// Returns the defaults of index-1: as index-3, projected after every step.
+    /// Returns the defaults of index-1: those of index-3, with a projection after every step.
     #[must_use]
     pub fn index1() -> Self {
         Self::index3()

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The published projections [P3 (21), (22)] solve for x itself with the weight W. The correction form loses no digits to the condition of
-//! the matrix. The first sweep is the published projection. Further sweeps make it orthogonal in the mass, whatever forces W contains. They
-//! also remove the error that delta leaves, and that of a factor from another configuration.
+//! the matrix. The first sweep is the published projection. Further sweeps make it orthogonal in the mass, even if W contains stiffness and
+//! damping. They also remove the error that delta leaves, and the error of a factor from another configuration.
 
 use crate::workspace::{Mass, Workspace};
 use mbs_core::implicit::{ConstraintLevel, ResidualLimits};
@@ -16,7 +16,7 @@ use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, subtract};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Ratio to the first correction below which a correction no longer matters to the orthogonality of a projection [-]. Three digits of a small
+/// Ratio to the first correction below which a correction no longer affects the orthogonality of a projection [-]. Three digits of a small
 /// correction are enough.
 const ORTHOGONAL: f64 = 1e-3;
 
@@ -30,8 +30,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         level.violation(model, &self.terms, x, &mut self.rates)
     }
 
-    /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a; they are left in `mu`. Returns the violation of each
-    /// level. Needs the matrix factored at a configuration close to q.
+    /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a. Leaves the balanced multipliers in `mu`. Returns
+    /// the violation of each level. Needs the matrix factored at a configuration close to q.
     pub(crate) fn project_velocities_and_accelerations<M: Model<T>>(
         &mut self,
         model: &M,
@@ -93,8 +93,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         Err(level.violated(violation, &self.rates))
     }
 
-    /// Makes one sweep for the violation in `rates`. The mass and sigma enter the right-hand side only once x differs from x* (`is_changed`).
-    /// Leaves the negative correction in `f`.
+    /// Makes one sweep for the violation in `rates`. The right-hand side contains the mass and sigma only if x already differs from x*
+    /// (`is_changed`). Leaves the negative correction in `f`.
     pub(crate) fn sweep<M: Model<T>>(&mut self, model: &M, is_changed: bool) {
         self.mu.copy_from_slice(&self.sigma);
         self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO, true);

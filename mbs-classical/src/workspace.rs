@@ -11,8 +11,8 @@ use mbs_core::step::{Counts, OptionError, StepError, StepReport, Stop, largest};
 use mbs_core::team::{norm_inf, on_elements, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
-/// Workspace of the classical steps over a solver `S`. After [`Workspace::new`] only the solver may allocate, when it delays more pivots than
-/// ever before.
+/// Workspace of the classical steps over a solver `S`. After [`Workspace::new`] only the solver may allocate, if it delays more pivots than
+/// in all earlier factorisations.
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
     solver: S,
@@ -20,7 +20,7 @@ pub struct Workspace<T, S> {
     pub(crate) terms: Terms<T>,
     /// Jacobian rows of all elements.
     jacobian: Vec<T>,
-    /// The end of the step, whose accelerations are a/a' in index-3 and a in index-1.
+    /// The end of the step. The stored accelerations are a/a' in index-3 and a in index-1.
     pub(crate) end: StepEnd<T>,
     /// Sum of the corrections of a projection, x - x*; an extended vector, which includes known coordinates.
     pub(crate) change: Vec<T>,
@@ -43,19 +43,19 @@ pub struct Workspace<T, S> {
     pub(crate) counts: Counts,
 }
 
-/// Ratio of the weakest pivot below which a singular position may be close [-]. The ratio is that of the option `rank`. It is proportional to
-/// the square of the distance, so this value is reached within 0.03 rad.
+/// Ratio of the weakest pivot below which a singular position may be close [-]. The ratio is defined at the option `rank`. It is
+/// proportional to the square of the distance, so it falls below this value within 0.03 rad.
 const MAX_PIVOT_OF_BRANCH: f64 = 1e-3;
 /// Ratio |J^T mu| / (|J|^T |mu|) below which rows are nearly dependent [-]. It is zero in a singular position. It is of order one where the
 /// tangent is only badly scaled, for instance by a fast spin.
 const MAX_CANCELLATION: f64 = 0.1;
-/// Ratio of the weakest pivot below which lost rank explains why an iteration does not converge [-]. It is reached within 0.01 rad of a
-/// singular position.
+/// Ratio of the weakest pivot below which lost rank explains why an iteration does not converge [-]. The ratio falls below this value
+/// within 0.01 rad of a singular position.
 const MAX_PIVOT_OF_FAILURE: f64 = 1e-4;
-/// Ratio to the largest multiplier of a null vector above which a row belongs to the dependent ones [-]. Rounding errors of a null vector are
-/// smaller.
+/// Ratio of a row's multiplier in a null vector to the largest one, above which the row counts as dependent [-]. Rounding errors of a null
+/// vector are smaller.
 const MIN_PART_OF_ROW: f64 = 1e-3;
-/// Factor on a correction when it is compared with the distance of two branches [-]. A correction larger than a quarter of the distance may
+/// Factor on a correction in its comparison with the distance of two branches [-]. A correction larger than a quarter of the distance may
 /// end on either branch.
 const BRANCH_DISTANCE: f64 = 4.0;
 
@@ -99,17 +99,18 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             n,
             counts: Counts::default(),
         };
-        // The first factorisation shows the solver how many pivots it delays, so that memory is reserved. Its success does not matter here.
+        // The first factorisation shows the solver how many pivots it delays, so that the solver reserves memory. Its result is not needed
+        // here.
         let _ = this.factor(model, (T::ZERO, T::ZERO), false, T::ZERO);
         this
     }
 
-    /// The terms of the model as last evaluated.
+    /// The terms of the model at the last evaluation.
     pub fn terms(&self) -> &Terms<T> {
         &self.terms
     }
 
-    /// Terms as last evaluated, for a caller that restores them. Besides the state, a step leaves nothing else for the next one.
+    /// Terms of the model at the last evaluation, for a caller that restores them. The next step depends only on them and on the state.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
@@ -141,7 +142,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.end.evaluate_forces(model, &mut self.terms);
     }
 
-    /// Factors the saddle matrix with the given weights of stiffness and damping. Fails if the weakest pivot's ratio is below `rank`.
+    /// Factors the saddle matrix with the given weights of stiffness and damping. Fails if the ratio of the weakest pivot is below `rank`.
     pub(crate) fn factor<M: Model<T>>(
         &mut self,
         model: &M,
@@ -173,7 +174,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
                 match self.diagnose(model, error) {
                     lost @ StepError::RankLost { .. } => Err(lost),
-                    // A coordinate almost without inertia has a weak pivot too, but no rank is lost.
+                    // A coordinate almost without inertia also has a weak pivot, but no rank is lost.
                     _ => Ok(()),
                 }
             }
@@ -181,13 +182,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
-    /// Is W positive on the motions with J x = 0?
+    /// True if W is positive definite on the motions with J x = 0.
     pub(crate) fn is_positive(&self) -> bool {
         self.solver.inertia().negative == self.lambda.len()
     }
 
-    /// Diagnoses a weak pivot by a null vector x of the matrix. If rows depend on each other, x consists of multipliers, and one of the rows
-    /// is named, a joint's row if possible. Otherwise x consists of coordinates that nothing determines.
+    /// Diagnoses a weak pivot by a null vector x of the matrix. If rows depend on each other, x consists of multipliers. The error then
+    /// names one of the rows, if possible a joint's row. Otherwise x consists of coordinates that nothing determines.
     fn diagnose<M: Model<T>>(&mut self, model: &M, error: FactorError) -> StepError {
         if !error.pivot.is_finite() {
             return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };
@@ -209,17 +210,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
     }
 
-    /// Does the null vector, with a one at `unknown`, show dependent or nearly dependent rows? A small pivot alone does not show it. Pivots
-    /// are also small for a light body that carries heavy ones, and for a coordinate that nothing determines.
+    /// True if the null vector, with a one at `unknown`, shows dependent or nearly dependent rows. A small pivot alone does not show them.
+    /// Pivots are also small for a light body that carries heavy bodies, and for a coordinate that nothing determines.
     fn has_dependent_rows<M: Model<T>>(&mut self, model: &M, unknown: u32) -> bool {
         let most = norm_inf(model.team(), &self.null[self.n..]);
         let has_rows = unknown as usize >= self.n || most > T::EPSILON.sqrt();
         has_rows && !(self.cancellation(model) > T::from_f64(MAX_CANCELLATION))
     }
 
-    /// Checks that a correction cannot change the branch. Two branches cross at a singular position, and their distance equals that of the
-    /// mechanism from the position. The correction in `f`, along the direction in which the branches differ, must be small relative to this
-    /// distance.
+    /// Checks that a correction cannot change the branch. Two branches cross at a singular position. Their distance equals the distance of
+    /// the mechanism from that position. The part of the correction in `f` along the direction in which the branches differ must be small
+    /// relative to this distance.
     ///
     /// ```text
     /// x with T x = 0 nearly,   part = (x.d / x.x) |x|_max,   (4 part / length)^2 <= weakest pivot
@@ -254,7 +255,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     }
 
     /// Returns the cancellation |J^T mu| / (|J|^T |mu|), each summed over the coordinates, for the multipliers mu of the null vector. It is
-    /// small where rows are dependent or nearly so.
+    /// small if rows are dependent or nearly dependent.
     fn cancellation<M: Model<T>>(&mut self, model: &M) -> T {
         let (sums, sizes) = self.sums.split_at_mut(self.n);
         sums.fill(T::ZERO);

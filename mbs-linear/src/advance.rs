@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Returns the state after a time `h` [s]. States of signals stay.
+/// Returns the state after a time `h` [s]. The states of signals keep their values.
 ///
 /// The error is of fifth order in h.
 ///
@@ -48,7 +48,8 @@ pub fn advance<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 }
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// Evaluates accelerations at a time `h` after the state, with positions and velocities moved by these rates.
+    /// Evaluates accelerations at a time `h` after the start. Positions and velocities are those of the start plus `h` times the rates `[v,
+    /// a]`.
     fn go_to(&mut self, h: T, [v, a]: &[Vec<T>; 2]) -> Result<(), LinearError> {
         let start = self.start;
         self.model.set_inputs(start.t + h, start, &mut self.w.terms);

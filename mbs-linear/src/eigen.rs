@@ -12,17 +12,19 @@
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Sweeps for each row of a matrix, at most, counted for ten rows at least [-]; two or three are usual. The limit holds for all eigenvalues
-/// together. Where stiff and soft springs act on the same coordinates, the first eigenvalue may need a hundred sweeps, and the others only a
-/// few.
+/// Largest number of sweeps for each row of a matrix; a matrix has the sweeps of at least ten rows [-]. Two or three sweeps are usual. The
+/// limit holds for all eigenvalues together. Where stiff and soft springs act on the same coordinates, the first eigenvalue may need a
+/// hundred sweeps, and the others only a few.
 const MAX_SWEEPS: usize = 30;
-/// Sweeps without success after which an exceptional shift breaks a cycle [-]: as in EISPACK's `hqr`.
+/// Number of sweeps without success after which an exceptional shift breaks a cycle [-]. The number is that of EISPACK's `hqr`.
 const STUCK: usize = 10;
-/// Passes of balancing, at most [-]; three are usual.
+/// Largest number of passes of balancing [-]. Three passes are usual.
 const MAX_PASSES: usize = 100;
-/// Ratio of the sums of a row and a column after and before scaling, below which it is scaled [-]: as published (Parlett and Reinsch 1969).
+/// A row and its column are scaled if the sum of their entries falls below this fraction of its value [-]. The fraction is that of Parlett and
+/// Reinsch (1969).
 const WORTH_SCALING: f64 = 0.95;
-/// Half of the sum of exceptional shifts and minus their product, in sizes of the subdiagonal [-]: as in EISPACK's `hqr`.
+/// Half of the sum of the two exceptional shifts, and minus their product, relative to the subdiagonal entries [-]. The values are those of
+/// EISPACK's `hqr`.
 const EXCEPTIONAL: [f64; 2] = [0.75, 0.4375];
 
 /// Returns all eigenvalues [real, imaginary] of an n x n matrix, given column by column; conjugate ones are adjacent. Returns `None` if an
@@ -62,7 +64,7 @@ impl<T: Real> Square<T> {
         &mut self.entries[j * self.n + i]
     }
 
-    /// Divides by a power of two so that entries are of order one at most, and returns it.
+    /// Divides the matrix by a power of two so that its entries are at most of order one. Returns the power.
     fn scale(&mut self) -> T {
         let largest = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
         let mut scale = T::ONE;
@@ -76,7 +78,8 @@ impl<T: Real> Square<T> {
         scale
     }
 
-    /// Balances rows and columns by sums of absolute entries without the diagonal. (Squares of small entries would underflow.)
+    /// Balances rows and columns: scales them until their sums of absolute entries, without the diagonal, are similar. (Squares of small
+    /// entries would underflow.)
     fn balance(&mut self) {
         let enough = T::from_f64(WORTH_SCALING);
         for _ in 0..MAX_PASSES {
@@ -173,7 +176,7 @@ impl<T: Real> Square<T> {
         Some(values)
     }
 
-    /// Is the subdiagonal entry of row i a rounding error? If so, sets it to zero.
+    /// Sets the subdiagonal entry of row i to zero if it is a rounding error. Returns whether it did.
     fn is_split(&mut self, i: usize, last: usize, tiny: T) -> bool {
         let mut beside = self.at(i - 1, i - 1).abs() + self.at(i, i).abs();
         if beside == T::ZERO {
@@ -225,7 +228,7 @@ impl<T: Real> Square<T> {
                 *self.at_mut(k, k - 1) = left * largest;
                 (1..n_rows).for_each(|i| *self.at_mut(k + i, k - 1) = T::ZERO);
             } else if k > low {
-                // (1 − β x₀²) h, written without cancellation, since x₀ is nearly all of x
+                // (1 − β x₀²) h. Nearly all of x is x₀, so the difference is written without cancellation.
                 *self.at_mut(k, k - 1) *= x[0] / left;
             }
 
@@ -236,7 +239,7 @@ impl<T: Real> Square<T> {
         }
     }
 
-    /// Returns a, d and b c of the two rows [a b; c d] whose eigenvalues are the shifts.
+    /// Returns a, d and b c of the 2 x 2 block [a b; c d] whose eigenvalues are the shifts.
     fn shifts(&self, last: usize, is_stuck: bool) -> [T; 3] {
         let (a, d) = (self.at(last - 1, last - 1), self.at(last, last));
         if is_stuck {
@@ -260,7 +263,7 @@ impl<T: Real> Square<T> {
             if m == low {
                 return (m, x);
             }
-            // Between two small subdiagonal entries, a sweep that starts here changes the entries to the left by a rounding error only.
+            // Between two small subdiagonal entries, a sweep that starts here changes the entries to the left only by a rounding error.
             let spoilt = self.at(m, m - 1).abs() * (x[1].abs() + x[2].abs());
             let beside = self.at(m - 1, m - 1).abs() + h.abs() + next.abs();
             if spoilt <= T::EPSILON * x[0].abs() * beside {
@@ -270,7 +273,7 @@ impl<T: Real> Square<T> {
         unreachable!("a block has three rows or more")
     }
 
-    /// Applies a reflection to rows k.. and columns k.. within a block.
+    /// Applies the reflection I − β x xᵀ to the rows and columns from k on, within a block.
     fn reflect(&mut self, k: usize, (low, last): (usize, usize), (beta, x): (T, &[T])) {
         for j in k..=last {
             let sum = x.iter().zip(k..).fold(T::ZERO, |s, (&x, i)| s + x * self.at(i, j));

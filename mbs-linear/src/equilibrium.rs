@@ -1,29 +1,33 @@
-//! Static equilibrium by pseudo-transient continuation. Steps follow the flow M q' = Q - J^T lambda on the constraints, and become those of
-//! Newton's method as they grow.
+//! Static equilibrium by pseudo-transient continuation. Small steps follow the flow M q' = Q - J^T lambda on the constraints. Large steps
+//! are those of Newton's method.
 //!
 //! ```text
 //! [ M + s (K + K_geo(lambda))  J^T ] ( d          )     ( s (Q - J^T lambda) )
 //! [ J                           0  ] ( s d_lambda )  =  ( -phi               ),     q += d, closed again; lambda += d_lambda
 //! ```
 //!
-//! The matrix is that of a step of implicit Euler with h^2 = s from rest: dynamic relaxation with the velocity reset to zero after every
-//! step. For s -> infinity it is that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998). s grows tenfold with
-//! every accepted step and shrinks after a refused one. A step is refused in four cases:
+//! The matrix is that of a step of implicit Euler from rest with the step size h, where h^2 = s. So the method is dynamic relaxation with
+//! the velocity reset to zero after every step. For s -> infinity the matrix is that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J.
+//! Numer. Anal. 35, 1998). s grows tenfold with every accepted step and shrinks after a refused one. A step d is refused in four cases:
 //!
-//! - The matrix is not positive where J d = 0 (its inertia is not (n, m, 0), N. Gould 1985). The step then leads to no minimum of energy.
+//! - The matrix is not positive definite where J d = 0 (its inertia is not (n, m, 0), N. Gould 1985). The step then leads to no minimum of
+//!   energy.
 //! - The step rotates the mechanism so far that it violates the constraints by a quarter of its size.
-//! - The forces at its end do negative work along it, of more than half of their positive work at its start. The step is then too long.
-//! - The forces do as much negative work where two points, which a law may push apart, pass each other. The step would go through a stop.
+//! - The forces at the end of the step do negative work along it, more than half of the positive work of the forces at its start. The step
+//!   is then too long.
+//! - The forces do that much negative work at a place where two points pass each other and a law may push them apart. The step would pass
+//!   through a stop.
 //!
-//! The line search compares work along the step rather than norms of residuals. On the way down from a steep or unstable position forces must
-//! be allowed to grow. So the search leaves unstable positions unless it starts exactly at one.
+//! The line search compares work along the step rather than norms of residuals. Forces may grow while the mechanism falls from a steep or
+//! unstable position. So the search leaves an unstable position unless it starts exactly there.
 //!
-//! In neutral directions no force acts and K is singular, so that the step s (force) / M consists of rounding errors. s is bounded so that
-//! they move a neutral direction by at most sqrt(EPSILON)/10 of the scene's length in each step. Such directions stay where they started.
+//! In neutral directions no force acts and K is singular. There the step, s times force divided by mass, consists of rounding errors. The
+//! bound on s limits the displacement of a neutral direction in each step to sqrt(EPSILON)/10 of the scene's length. Such directions stay
+//! where they started.
 //!
-//! Forces are balanced if they are small relative to two quantities. One is the largest sum of absolute forces on a coordinate during the
-//! search. The other is the force that the stiffness gives for a displacement of the scene's size. The second matters for a slide that a
-//! spring alone holds, since there all forces vanish together.
+//! Forces are balanced if they are small relative to the sum of two forces. The first is the largest sum of absolute forces on a coordinate
+//! at the position. The second is the force that the stiffness gives for a displacement of the scene's size. The second matters for a slide
+//! that a single spring holds, because there all forces vanish together.
 
 use crate::error::EquilibriumError;
 use crate::options::Options;
@@ -40,20 +44,21 @@ use mbs_core::{Real, SymmetricSolver};
 pub struct Equilibrium<T> {
     /// Number of steps taken.
     pub iterations: u32,
-    /// Factorisations, including those of refused steps and of the test of stability.
+    /// Number of factorisations, including those of refused steps and of the test of stability.
     pub factorizations: u32,
     /// Largest remaining force on a coordinate [N; N m for directions].
     pub residual: T,
-    /// Largest remaining force, by its work along the scene's length [-]. It is relative to the largest sum of absolute forces on a
-    /// coordinate during the search, or to the force that its stiffness gives for a displacement of that length. Zero without forces.
+    /// Largest remaining force, relative to a reference force [-]. Each force is measured by its work along the scene's length. One
+    /// candidate for the reference is the largest sum of absolute forces on a coordinate during the search. The other is the force that the
+    /// stiffness gives for a displacement of that length. The larger one is used. Zero without forces.
     pub relative: T,
     /// Largest constraint violation [m or rad].
     pub violation: T,
-    /// Largest change of a coordinate [m or -].
+    /// Largest change of a coordinate during the search [m or -].
     pub change: T,
-    /// Number of unstable directions: omega^2 is negative and |omega| is above [`rate`](Self::rate).
+    /// Number of unstable directions: their squared frequency omega^2 is negative, and |omega| is above [`rate`](Self::rate).
     ///
-    /// The number is an estimate from the effects' tangents, which may leave out parts. The eigenvalues of a linearisation are decisive.
+    /// The number is an estimate from the effects' tangents, which may leave out terms. The eigenvalues of a linearisation are decisive.
     pub unstable: usize,
     /// Number of neutral directions, with |omega| below [`rate`](Self::rate), by the same estimate. The mechanism may be anywhere along them.
     pub neutral: usize,
@@ -62,7 +67,7 @@ pub struct Equilibrium<T> {
 }
 
 impl<T> Equilibrium<T> {
-    /// Are there no unstable directions, by the estimate?
+    /// True if no direction is unstable, by the estimate in `unstable`.
     pub fn is_stable(&self) -> bool {
         self.unstable == 0
     }
@@ -72,11 +77,11 @@ impl<T> Equilibrium<T> {
 const SHRINK: f64 = 0.125;
 /// Factor on s after an accepted step [-]. Chosen, not tuned.
 const GROW: f64 = 10.0;
-/// Ratio of s to its first value at which the search ends [-]: it is reached by 22 refused steps in a row. Chosen, not tuned.
+/// The search ends if s falls below its first value times this factor [-]. This happens after 23 refused steps in a row. Chosen, not tuned.
 const SMALLEST: f64 = 1e-20;
-/// Steps with balanced forces but without progress after which the search ends [-]. Chosen, not tuned.
+/// Number of steps with balanced forces but without progress after which the search ends [-]. Chosen, not tuned.
 const MAX_IDLE_STEPS: u32 = 40;
-/// Sweeps that close the constraints after a step, at most [-]. Chosen, not tuned.
+/// Largest number of sweeps that close the constraints after a step [-]. Chosen, not tuned.
 const SWEEPS: u32 = 20;
 /// Longest step that counts as rounding error, in units of EPSILON times the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 8.0;
@@ -90,7 +95,8 @@ const CLOSED: f64 = 1e-6;
 const FLOOR_ROUNDINGS: f64 = 8.0;
 /// Constraint violation at which sweeps without progress may end, relative to the rounding error of a row [-]. Chosen, not tuned.
 const STALLED: f64 = 64.0;
-/// Divisor of the largest displacement of neutral directions in a step, which is sqrt(EPSILON) of the scene's length [-]. Chosen, not tuned.
+/// The largest displacement of a neutral direction in a step is sqrt(EPSILON) of the scene's length divided by this number [-]. Chosen, not
+/// tuned.
 const NEUTRAL: f64 = 10.0;
 /// Largest displacement from the start in a search, relative to the scene's length [-]. Chosen, not tuned.
 const MAX_EXTENT: f64 = 1e6;
@@ -98,10 +104,10 @@ const MAX_EXTENT: f64 = 1e6;
 /// Moves `s` to a static equilibrium close to it.
 ///
 /// Guides keep their values at the time `s.t`. Forces that depend on velocity are evaluated at the velocity in `s`: set it to zero for an
-/// equilibrium at rest. Positions, multipliers (also as `reaction`) and measured angles are written. Accelerations become zero. Velocities
-/// stay as they are, and are not made consistent with the new positions.
+/// equilibrium at rest. The function writes positions, multipliers (also as `reaction`) and measured angles. Accelerations become zero.
+/// Velocities keep their values, and are not made consistent with the new positions.
 ///
-/// Cost: ten to forty factorisations close to an equilibrium, more on a long way to it. Allocates a few vectors.
+/// Cost: ten to forty factorisations close to an equilibrium, and more from a distant start. Allocates a few vectors.
 ///
 /// # Errors
 /// [`EquilibriumError`]; the state is then unchanged.
@@ -134,12 +140,13 @@ pub(crate) struct Search<'a, T, M, S> {
     next_residual: Vec<T>,
     /// Positions at the start.
     from: Vec<T>,
-    /// Largest sum of absolute forces on a coordinate, as work along its size [J]: at present, and during the search.
+    /// Largest sum of absolute forces on a coordinate, as work along the coordinate's size [J]: at the present position, and during the
+    /// search.
     scale: T,
     met: T,
     /// Largest acceleration that a single force would have caused during the search, in sizes of coordinates [1/s^2].
     lively: T,
-    /// Largest work of the last step's matrix for a displacement by a coordinate's size [J].
+    /// Largest work of the matrix of the last step for a displacement by a coordinate's size [J].
     stiff: T,
     /// Pseudo-time step squared and its upper bound [s^2].
     s: T,
@@ -190,7 +197,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
         self.evaluate();
         let mut acceleration = T::ZERO;
-        // The second sweep removes the error that the regularisation of the rows left.
+        // The second sweep removes the error that the regularisation of the rows leaves.
         for _ in 0..if has_mass { 2 } else { 0 } {
             self.load(T::ONE, &self.next_residual.clone());
             self.w.solve();
@@ -230,7 +237,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             let left = self.w.work(&self.residual);
             let is_progress = left < before * T::HALF;
             if left <= options.tolerance * (self.scale + self.stiff) {
-                // A small s indicates an unstable position, where a small step only shows the beginning of a motion.
+                // A small s indicates an unstable position. There a small step does not show an equilibrium, but only the beginning of a
+                // motion.
                 let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
                 let is_at_rest = size <= T::EPSILON.sqrt() && is_newton;
                 let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(FORCE_ROUNDINGS)
@@ -294,7 +302,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         Some(size)
     }
 
-    /// Do forces work against the straight path to `next` at a place where two points, which a law may push apart, pass each other?
+    /// True if forces work against the straight path to `next` at a place where two points pass each other and a law may push them apart.
     fn goes_through(&mut self) -> bool {
         let mut closest = Vec::new();
         self.model.approaches(&self.q, &self.next, |ratio| closest.push(ratio));
@@ -317,7 +325,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         })
     }
 
-    /// Factors the matrix at the present terms. Returns whether it is positive where J d = 0.
+    /// Factors the matrix at the present terms. Returns whether the matrix is positive definite where J d = 0.
     fn factor(&mut self, s: T) -> bool {
         self.factorizations += 1;
         let is_regular = self.w.factor(self.model, s, (&self.q, &self.lambda)).is_ok();
@@ -335,7 +343,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
     }
 
-    /// Closes the constraints at `next` by sweeps with the present factor, which make the smallest changes in its metric.
+    /// Closes the constraints at `next` by sweeps with the present factor. Their changes are the smallest in the metric of the factored
+    /// matrix.
     pub(crate) fn close(&mut self) -> bool {
         let n = self.w.n;
         let mut violation = self.w.openness(&self.w.terms.phi);
@@ -382,7 +391,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     fn accept(&mut self) {
         let lively = self.w.liveliness(self.model);
         self.lively = self.lively.max(lively);
-        // Where all forces vanish together, their rounding errors are relative to the forces met earlier in the search.
+        // Where all forces vanish together, their rounding errors are relative to the forces at earlier positions of the search.
         let lively = lively.max(self.lively * T::EPSILON.sqrt());
         if lively > T::ZERO {
             self.bound = T::ONE / (T::from_f64(NEUTRAL) * T::EPSILON.sqrt() * lively);
@@ -397,7 +406,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         self.phi.copy_from_slice(&self.w.terms.phi);
     }
 
-    /// Are the forces balanced at the position where the search started?
+    /// Checks that the forces are balanced at the position where the search started.
     pub(crate) fn check_balance(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
         self.factor(self.bound);
         self.stiff = norm_inf(self.w.diagonal()) / self.bound;
@@ -451,8 +460,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         report
     }
 
-    /// Counts the negative directions of K + K_geo where J d = 0. s K + M has one for each omega^2 < -1/s, and M - s K for each omega^2 >
-    /// 1/s.
+    /// Counts the negative directions of K + K_geo where J d = 0. The number of negative directions of M + s K is that of the omega^2 <
+    /// -1/s. The number of negative directions of M - s K is that of the omega^2 > 1/s.
     fn report(&mut self, from: &[T]) -> Equilibrium<T> {
         self.model.evaluate(&self.q, &mut self.w.terms);
         self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);

@@ -2,7 +2,7 @@
 
 use mbs_core::step::OptionError;
 
-/// A search for an equilibrium that failed; the state is unchanged.
+/// Reason why a search for an equilibrium failed. The state is unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum EquilibriumError {
@@ -86,7 +86,7 @@ impl From<OptionError> for EquilibriumError {
     }
 }
 
-/// A linearisation that failed.
+/// Reason why a linearisation failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum LinearError {
@@ -97,7 +97,8 @@ pub enum LinearError {
         /// Largest violation [m or rad].
         violation: f64,
     },
-    /// A singular position is close: closing the constraints moves coordinates by as much as the difference itself.
+    /// A singular position is close: the displacement that closes the constraints is as large as the change of a coordinate in the
+    /// difference.
     Singular {
         /// The independent coordinate that was changed.
         freedom: usize,
@@ -107,7 +108,7 @@ pub enum LinearError {
         /// The unknown of the saddle system: a coordinate, or a row if it is n or larger.
         unknown: u32,
     },
-    /// Accelerations near the state do not satisfy the constraints, because rows nearly depend on each other.
+    /// Accelerations near the state cannot be made to satisfy the constraints, because rows nearly depend on each other.
     NotSettled {
         /// Largest violation of the constraints by accelerations [m/s^2].
         left: f64,

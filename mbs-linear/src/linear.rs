@@ -18,13 +18,14 @@ pub struct Linear<T> {
     pub basis: Vec<T>,
     /// Accelerations z'' at the state: zero in an equilibrium.
     pub acceleration: Vec<T>,
-    /// Largest acceleration term of the constraints that the rotation of bodies causes [m/s^2]: zero at rest and in translation.
+    /// Largest acceleration term of the constraints that comes from the rotation of bodies [m/s^2]. Zero at rest and in translation.
     ///
-    /// If it is not zero, the coefficients change along the motion. Eigenvalues then hold for one instant and for these z only.
+    /// If it is not zero, the coefficients change along the motion. Eigenvalues then hold for one instant and for these coordinates z only.
     pub turning: T,
     /// Rounding error to be expected in `stiffness` [1/s^2]. An eigenvalue whose square is of this size counts as zero.
     pub noise: T,
-    /// Largest ratio of a force to the inertia that it moves, in sizes of coordinates [1/s^2]. Accelerations are compared with it.
+    /// Largest ratio of a force to the inertia that it moves, relative to the sizes of coordinates [1/s^2]. Accelerations are compared with
+    /// it.
     pub lively: T,
     /// Matrices of the states of signals.
     pub signals: LinearSignals<T>,

@@ -34,18 +34,18 @@ pub enum Instant {
     Motion,
 }
 
-/// Sweeps that close the constraints near the state, at most [-]. Chosen, not tuned.
+/// Largest number of sweeps that close the constraints near the state [-]. Chosen, not tuned.
 const SWEEPS: u32 = 60;
 /// Largest displacement that closes the constraints, relative to a difference of coordinates [-]. The curvature of constraints alone causes
 /// about 1e-4.
 const CURVED: f64 = 0.1;
-/// Largest displacement that closes the constraints, relative to a difference and in units of the length of the difference [-]. A longer
-/// one makes the difference shorter. At the default length of 1e-4 the ratio is 0.001. The modes of a chain of 60 links then have nine
-/// digits, and five digits at ten times this value.
+/// Largest displacement that closes the constraints, relative to a difference and per unit of the difference's length [-]. If the
+/// displacement is longer, the difference is made shorter. At the default length of 1e-4 the largest ratio is 0.001. The modes of a chain
+/// of 60 links then have nine correct digits. They have five correct digits at ten times this value.
 const FLAT: f64 = 10.0;
-/// Smallest factor by which such a difference is made shorter at once [-]. Chosen, not tuned.
+/// Smallest factor that makes a difference shorter in one trial [-]. Chosen, not tuned.
 const SHORTER: f64 = 1.0 / 64.0;
-/// Lengths of a difference that are tried, at most [-]. Chosen, not tuned.
+/// Largest number of lengths that are tried for a difference [-]. Chosen, not tuned.
 const LENGTHS: u32 = 4;
 /// Displacement that counts as rounding error, in units of EPSILON times the coordinates [-]. Chosen, not tuned.
 const ROUNDED: f64 = 16.0;
@@ -56,11 +56,12 @@ const STALLED: f64 = 1e3;
 
 /// Linearises about the consistent state `s`. Time and measured angles are constant.
 ///
-/// At a corner of a force law (a contact that begins, a damper with two branches at rest) the result is the mean of both sides. Near a corner
-/// it is a value between them. Differences are shorter where the constraints curve within them, as those of a long chain do.
+/// At a corner of a force law (a contact that begins, a damper with two branches at rest) the result is the mean of both sides. Near a
+/// corner the result is a value between those of both sides. Differences are shorter where the constraints are strongly curved, as those of
+/// a long chain are.
 ///
-/// Cost for f freedoms: 4 f + 1 factorisations and 9 f evaluations, 4 more for each state of a signal, and n^3 operations for the dense split
-/// of the coordinates. Allocates.
+/// Cost for f freedoms: 4 f + 1 factorisations, 9 f evaluations, and 4 more evaluations for each state of a signal. The dense split of the
+/// n coordinates costs n^3 operations. Allocates.
 ///
 /// # Errors
 /// [`LinearError`] if the constraints are not satisfied, a singular position is close, or the state lacks inertia.
@@ -187,7 +188,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         Self::new(model, instant, s, w)
     }
 
-    /// Returns the linearised motion without its basis, and the values of the outputs with their derivatives by z, z' and x.
+    /// Returns the linearised motion without its basis, and the values of the outputs with their derivatives by z, z' and the states x of
+    /// signals.
     pub(crate) fn linear(&mut self, reach: T) -> Result<(Linear<T>, [Vec<T>; 2]), LinearError> {
         let (f, start) = (self.tangent.n_freedoms(), self.start);
         let acceleration = self.at_rest_of(&start.v)?;
@@ -231,8 +233,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.by_each(reach, |_, _, h| Ok(h), Self::hurried)
     }
 
-    /// Returns the derivatives by each freedom of the function `accelerations`. `lengths` gives the length of a difference from the longest
-    /// one.
+    /// Returns the derivatives of the function `accelerations` by each freedom. `lengths` computes the length of a freedom's difference
+    /// from the longest length.
     fn by_each(
         &mut self,
         reach: T,
@@ -264,19 +266,19 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.watch.as_mut().map_or(Ok(Vec::new()), |watch| watch.outputs(at, motion))
     }
 
-    /// Appends to the accelerations the rates of the states of signals and the outputs, at the last evaluation.
+    /// Appends two results of the last evaluation to the accelerations: the rates of the states of signals, and the outputs.
     pub(crate) fn with_the_rest(&mut self, mut answer: Vec<T>) -> Result<Vec<T>, LinearError> {
         answer.extend(self.signal_rates());
         answer.extend(self.measured()?);
         Ok(answer)
     }
 
-    /// Returns the rounding error to be expected in a stiffness from such differences [1/s^2].
+    /// Returns the rounding error to be expected in a stiffness that is computed from differences [1/s^2].
     pub(crate) fn noise(&self, stiffness: &[T]) -> T {
         T::EPSILON * T::from_f64(NOISE) * (norm_inf(stiffness) + self.lively / self.shortest)
     }
 
-    /// Returns a difference of a freedom, not longer than `h`, within which the constraints are nearly flat.
+    /// Returns a length for the difference of a freedom, at most `h`. Within that length the constraints are nearly flat.
     fn flat(&mut self, freedom: usize, mut h: T) -> Result<T, LinearError> {
         let reach = h * self.w.extent(self.tangent.direction(freedom));
         let flat = (reach * T::from_f64(FLAT)).min(T::from_f64(CURVED));
@@ -311,7 +313,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.factor()
     }
 
-    /// Returns z'' at the velocity of the state, where the position is that of the state.
+    /// Returns z'' at the position and the velocity of the state.
     pub(crate) fn acceleration_at_start(&mut self) -> Result<Vec<T>, LinearError> {
         let v = self.start.v.clone();
         self.at_rest_of(&v)
@@ -326,8 +328,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         self.w.extent(&way)
     }
 
-    /// Changes z and closes the constraints. Returns the total displacement, the displacement that closes, and its rounding error, relative
-    /// to the sizes of coordinates.
+    /// Changes z and closes the constraints. Returns three lengths relative to the sizes of coordinates: the total displacement, the
+    /// displacement that closes the constraints, and its rounding error.
     fn shifted(&mut self, change: &[T]) -> Result<[T; 3], LinearError> {
         self.q.copy_from_slice(&self.start.q);
         for (j, &z) in change.iter().enumerate() {
@@ -350,7 +352,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     pub(crate) fn displaced(&mut self, change: &[T]) -> Result<Vec<T>, LinearError> {
         let [way, bend, least] = self.shifted(change)?;
         self.v.copy_from_slice(&self.start.v);
-        // The displacement that closes is of second order in z, unless a row is close to dependence.
+        // The displacement that closes the constraints is of second order in z, unless a row is close to dependence.
         if bend > least + way * T::from_f64(CURVED) {
             let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
             return Err(LinearError::Singular { freedom });
@@ -378,7 +380,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             let violation = self.w.openness(&self.w.terms.phi);
             let is_stalled = last.is_some_and(|last| violation > last * T::HALF);
             stalls = if is_stalled { stalls + 1 } else { 0 };
-            // the height of a large wheel still has the error of its directions in the sweep that makes them of unit length
+            // The last sweep may be one without progress. One sweep makes direction vectors unit vectors. After it, the height of a large
+            // wheel still has the error of their length.
             let is_last = violation <= floor * T::from_f64(STALLED) || stalls > 1;
             if is_stalled && is_last || violation == T::ZERO {
                 break;
@@ -399,7 +402,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         result.map_err(|error| LinearError::NoInertia { unknown: error.unknown })
     }
 
-    /// Returns z'' at (q, v), after v is moved onto the constraints. Needs the matrix factored at q.
+    /// Moves v onto the constraints and returns z'' at (q, v). The matrix must be factored at q.
     fn acceleration(&mut self) -> Result<Vec<T>, LinearError> {
         let (n, m) = (self.w.n, self.w.m);
         self.model.evaluate_phi_t(&self.q, &mut self.w.terms);
@@ -420,9 +423,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         let mut a = vec![T::ZERO; self.model.n_extended()];
         let (mut lambda, mut residual) = (vec![T::ZERO; m], vec![T::ZERO; n]);
         let (mut last, mut open, mut left) = (None, T::ZERO, T::ZERO);
-        // Each correction removes the error that rounding and the regularisation of the rows left. The first correction is the answer itself.
-        // Near an equilibrium it is small. Coordinates without mass transmit forces through their rows alone, so that the second correction
-        // may be as large.
+        // Each correction removes the error that rounding and the regularisation of the rows left. The first correction is the answer
+        // itself, and it is small near an equilibrium. Forces on coordinates without mass act through their constraint rows alone. So the
+        // second correction may be as large as the first.
         for sweep in 0..SWEEPS {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
             self.model.multiply_jacobian(&self.w.terms, &a, &mut rates);
@@ -453,7 +456,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
             self.lively = self.w.liveliness(self.model);
         }
-        // A rounding error in a coordinate with hardly any inertia is allowed; a row that remains violated is not.
+        // A large rounding error is allowed in a coordinate that has hardly any inertia. A row that remains violated is an error.
         if !(open <= self.lively.max(self.w.extent(&a[..n])) * T::EPSILON.sqrt()) {
             return Err(LinearError::NotSettled { left: left.to_f64() });
         }

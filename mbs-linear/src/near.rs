@@ -1,15 +1,15 @@
-//! The static equilibrium that Newton's method finds from a state, stable or not, in independent coordinates.
+//! The static equilibrium that Newton's method finds from a state, stable or unstable, in independent coordinates.
 //!
 //! ```text
 //! K_r d = z'',   q <- q + x B d, closed,   x = 1, 1/2, 1/4, ...   until |K_r^-1 z''(q)| <= (1 - x/4) |d|
 //! ```
 //!
-//! K_r is computed by differences of the equations of motion, as in [`linearise`](crate::linearise). The effects' tangents leave out terms
-//! that would make the matrix of a step indefinite, but unstable equilibria depend on these terms. A step is tested by its own matrix (P.
-//! Deuflhard, Numer. Math. 22, 1974), which depends on no unit.
+//! K_r is computed by differences of the equations of motion, as in [`linearise`](crate::linearise). The effects' tangents cannot replace
+//! it: they leave out terms that would make the matrix of a step indefinite, and unstable equilibria depend on these terms. The test of a
+//! step uses the inverse of K_r at its start (P. Deuflhard, Numer. Math. 22, 1974). So the test depends on no unit.
 //!
-//! Directions without stiffness keep their position where no force acts. A force moves them by at most a fifth of the scene's size in a step,
-//! until a stop holds them.
+//! Directions without stiffness keep their position where no force acts. A force moves them by at most a fifth of the scene's size in a
+//! step, until a stop prevents further motion.
 
 use crate::equilibrium::{Equilibrium, Search};
 use crate::error::{EquilibriumError, LinearError};
@@ -26,11 +26,12 @@ const LONGEST: f64 = 0.2;
 /// Stiffness that is assumed for a direction without any, in units of its rounding error [-]. A real force then gives a long step, and a
 /// rounding error gives a step of 1e-9 of the scene's size.
 const NOISE: f64 = 1e4;
-/// Halvings of a step before the search ends, at most [-]. Chosen, not tuned.
+/// Largest number of halvings of a step before the search ends [-]. Chosen, not tuned.
 const HALVINGS: u32 = 40;
 /// Longest step that counts as rounding error, in units of EPSILON times the scene's size [-]. Chosen, not tuned.
 const NOWHERE: f64 = 64.0;
-/// Fraction of a step by which the next one must be shorter, for the step to be accepted [-]. Chosen, not tuned.
+/// A step x d, a fraction x of the full step d, is accepted if the next step is shorter than d by at least this fraction of x d [-].
+/// Chosen, not tuned.
 const PROGRESS: f64 = 0.25;
 
 /// Moves `s` to the static equilibrium that Newton's method finds from it, stable or not.
@@ -81,7 +82,7 @@ fn newton<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let mut way = matrix.solve(&acceleration);
     let size = field.extent(&way);
     if !(size > T::EPSILON.sqrt()) {
-        // The last step is accepted without a test: rounding errors may prevent that the next one is shorter.
+        // The last step is accepted without a test, because with rounding errors the next step may not be shorter.
         field.displaced(&way).map_err(failed)?;
         model.remember(&field.q, &field.w.terms, &mut memory);
         return Ok((if size.is_finite() { field.q } else { q }, memory, T::ZERO));

@@ -1,4 +1,4 @@
-//! Options that the caller chooses. Public fields; start from the defaults.
+//! Options that the caller chooses. Start from the defaults and change the public fields as needed.
 
 use mbs_core::Real;
 use mbs_core::step::OptionError;
@@ -6,10 +6,11 @@ use mbs_core::step::OptionError;
 /// Options of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Largest residual force that counts as balanced, relative to the largest sum of absolute forces on a coordinate [-].
-    /// The search continues to machine precision if steps still reduce the forces.
+    /// Largest residual force that counts as balanced, relative to a reference force [-]. The reference is the largest sum of absolute
+    /// forces on a coordinate, plus the force that the stiffness gives for a displacement of the scene's length. The search continues to
+    /// machine precision if steps still reduce the forces.
     pub tolerance: T,
-    /// Factorisations of a search at most; it fails if they are not enough.
+    /// Largest number of factorisations of a search; the search fails if it needs more.
     pub max_factorizations: u32,
 }
 
@@ -47,13 +48,14 @@ impl<T: Real> Options<T> {
 /// Options of a linearisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearOptions<T> {
-    /// Largest change of a coordinate in a difference, relative to the scene's length [-]. Velocities change by the same amount per second.
+    /// Largest change of a coordinate in a difference, relative to the scene's length [-]. The change of velocities has the same value per
+    /// second.
     pub step: T,
 }
 
 impl<T: Real> Default for LinearOptions<T> {
-    /// Returns the default step of 1e-4 (f32: 1e-2). The error of the differences, its fourth power, is below rounding errors for smooth
-    /// forces.
+    /// Returns the default step of 1e-4 (f32: 1e-2). The error of the differences is of the fourth power of the step. For smooth forces it
+    /// is below rounding errors.
     fn default() -> Self {
         /// Difference of coordinates in double precision [-]: its fourth power is at machine precision.
         const STEP: f64 = 1e-4;

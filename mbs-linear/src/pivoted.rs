@@ -46,7 +46,7 @@ impl<T: Real> Pivoted<T> {
         self.columns.swap(k, column);
     }
 
-    /// Eliminates with the largest remaining pivot, if it is large enough. Returns whether it was.
+    /// Eliminates with the largest remaining pivot, if it is large enough. Returns whether it was large enough.
     fn eliminate(&mut self) -> bool {
         let (n, rank) = (self.n, self.rank);
         let (mut pivot, mut size) = ((rank, rank), T::ZERO);

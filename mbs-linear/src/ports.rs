@@ -5,8 +5,8 @@
 //! d/dt (z, z', x) = A (z, z', x) + B u,   y = C (z, z', x) + D u:   B = [0; df/du; dg/du],  C = dh/d(z, z', x),  D = dh/du
 //! ```
 //!
-//! Derivatives are differences of fourth order, as those of A. The value of a guide moves the constraints: positions are closed again without
-//! a change of z, then velocities, then accelerations. The rate and the acceleration of a guide are separate inputs.
+//! Derivatives are differences of fourth order, as those of A. A change of a guide's value moves the constraints. Then positions are closed
+//! again without a change of z, then velocities, then accelerations. The rate and the acceleration of a guide are separate inputs.
 
 use crate::error::LinearError;
 use crate::linear::Linear;
@@ -26,11 +26,11 @@ pub struct Ports<'a, T> {
     pub inputs: &'a [usize],
     /// Measure of the outputs; it must always return the same number of values.
     pub outputs: &'a mut OutputMeasure<'a, T>,
-    /// Coordinates x that replace z. The function gets dy/dz (p x f) and returns dx/dz (f x f), both column by column, or `None` where no
-    /// outputs determine z. Without it the coordinates are z.
+    /// Coordinates x that replace z. The function gets dy/dz (p x f) and returns dx/dz (f x f), both column by column. It returns `None`
+    /// where the outputs do not determine z. Without this function the coordinates are z.
     ///
-    /// Derivatives are then differences along x itself. This matters where a change of one x has a small effect: as a difference of large
-    /// effects of several z it would lose digits.
+    /// With it, derivatives are differences along x itself. This matters where a change of one x has a small effect. A difference along
+    /// several z would then lose digits, because their large effects nearly cancel.
     pub coordinates: Option<&'a mut CoordinateChoice<'a, T>>,
 }
 
@@ -43,7 +43,7 @@ impl<T> fmt::Debug for Ports<'_, T> {
     }
 }
 
-/// Matrices of the inputs and outputs of a linearised motion, stored column by column.
+/// Matrices of the inputs u and the outputs y of a linearised motion, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearPorts<T> {
     /// Number of inputs m.
@@ -76,14 +76,14 @@ impl<T: Real> LinearPorts<T> {
 ///
 /// With [`coordinates`](Ports::coordinates), z means the chosen coordinates in all results; the inertia is then not the unit matrix.
 ///
-/// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives by them are taken at zero.
+/// At [`Instant::Rest`] rates and accelerations of guides are zero at the state, and derivatives with respect to them are taken there.
 ///
 /// Cost: that of [`linearise`](crate::linearise()) with a measurement at each evaluation, and 6 evaluations for each input. An input that
-/// moves a guide adds 5 factorisations. Chosen coordinates add 4 f factorisations. Allocates.
+/// moves a guide adds 5 factorisations. Chosen coordinates add 4 f factorisations for f freedoms. Allocates.
 ///
 /// # Errors
 /// Errors of [`linearise`](crate::linearise()) and of `ports.outputs`; [`LinearError::Singular`] where no coordinates are chosen.
-/// [`LinearError::NotClosed`] where a guide's value cannot be changed, because joints hold its coordinate too.
+/// [`LinearError::NotClosed`] where a guide's value cannot be changed, because joints also fix the guided coordinate.
 ///
 /// # Panics
 /// If an index is not one of the state's inputs.
@@ -109,7 +109,7 @@ pub fn linearise_ports<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     Ok((linear, LinearPorts { n_inputs, values, forces, outputs, feedthrough }))
 }
 
-/// Largest factor by which the difference of an input is made longer, where the input hardly moves the mechanism [-]. Chosen, not tuned.
+/// Largest factor that makes the difference of an input longer, if the input hardly moves the mechanism [-]. Chosen, not tuned.
 const MOST_GROWTH: f64 = 1e4;
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
@@ -149,7 +149,7 @@ struct Driven<'a, T> {
     held: &'a [[T; 3]],
     /// Whether the input changes the value, the rate and the acceleration of a guide.
     changed: [bool; 3],
-    /// Are the present positions closed with a change of this input?
+    /// True if the present positions are closed with a change of this input.
     is_moved: bool,
 }
 
@@ -193,7 +193,7 @@ impl<T: Real> Driven<'_, T> {
         field.acceleration_at_start()
     }
 
-    /// Returns the difference of the input that moves coordinates, velocities or accelerations by `reach` of their sizes.
+    /// Returns the length of the input's difference that moves coordinates, velocities or accelerations by `reach` of their sizes.
     fn difference<M: Model<T>, S: SymmetricSolver<T>>(
         &mut self,
         field: &mut Field<'_, T, M, S>,

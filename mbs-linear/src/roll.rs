@@ -1,11 +1,11 @@
-//! Rolling in the steps of a search: slip of a rolling contact in a step is removed.
+//! Rolling contacts in a search for an equilibrium: the slip of each step is removed.
 //!
 //! ```text
 //! slip = integral of J dq over the rows of velocities:   S_1 = J(q_1/2) (q_1 - q_0),   S_2 the same over both halves,   (4 S_2 - S_1) / 3
 //! ```
 //!
-//! The constraints are closed at the midpoints. For a wheel that rotates by an angle a in a step, the computed slip has an error of 1.3e-4
-//! a^5 of its radius.
+//! The constraints are closed at the midpoints. If a wheel rotates by an angle a in a step, the error of the computed slip is 1.3e-4 a^5
+//! times the wheel's radius.
 
 use crate::equilibrium::Search;
 use alloc::vec;
@@ -15,19 +15,19 @@ use mbs_core::{Real, SymmetricSolver};
 
 /// Longest step with rolling contacts, in sizes of coordinates [-]. The computed slip then has an error of 2e-7 of the step.
 const LONGEST: f64 = 0.2;
-/// Sweeps that remove slip, at most [-]: each leaves a tenth of it or less. Chosen, not tuned.
+/// Largest number of sweeps that remove slip [-]. Each sweep leaves a tenth of the slip or less. Chosen, not tuned.
 const SWEEPS: u32 = 20;
 /// Slip that counts as rounding error, in units of the rounding error of a row [-]. Chosen, not tuned.
 const ROUNDINGS: f64 = 64.0;
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
-    /// Is a step of this `size` too long for a rolling contact?
+    /// True if a step of this `size` is too long for a rolling contact.
     pub(crate) fn is_too_long_to_roll(&self, size: T) -> bool {
         self.model.has_velocity_rows() && size > T::from_f64(LONGEST)
     }
 
-    /// Moves `next` so that the path from `q` has no slip. Returns whether it succeeded. Both ends are closed, and the terms are those at
-    /// `next`.
+    /// Moves `next` so that the path from `q` has no slip. Returns whether it succeeded. Both ends must satisfy the constraints, and the
+    /// terms must be those at `next`.
     pub(crate) fn roll(&mut self) -> bool {
         if !self.model.has_velocity_rows() {
             return true;
@@ -54,7 +54,8 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'_, T, M, S> {
         false
     }
 
-    /// Returns the slip along the path from `q` to `next`, row by row; zero in rows of positions. `None` if a midpoint cannot be closed.
+    /// Returns the slip along the path from `q` to `next`, row by row. Rows of positions have no slip. Returns `None` if the constraints
+    /// cannot be closed at a midpoint.
     fn slip(&mut self) -> Option<Vec<T>> {
         let (from, to) = (self.q.clone(), self.next.clone());
         let middle = self.between(&from, &to)?;

@@ -18,8 +18,8 @@ use mbs_core::model::{Model, State};
 use mbs_core::{Real, SymmetricSolver};
 
 impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
-    /// Returns the matrices of the states of signals, with their `rates` by coordinates and velocities, and the derivatives of outputs by
-    /// these states. Differences move the states by `reach` of their sizes.
+    /// Returns the matrices of the states of signals, and the derivatives of outputs by these states. `rates` has the derivatives of their
+    /// rates by coordinates and velocities. Differences change the states by `reach` of their sizes.
     pub(crate) fn signals(
         &mut self,
         reach: T,
@@ -51,18 +51,21 @@ impl<T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'_, T, M, S> {
     }
 }
 
-/// Steps until the states of signals are at rest, at most [-]: one or two where signals are linear. Chosen, not tuned.
+/// Largest number of steps until the states of signals are at rest [-]. One or two steps are enough where signals are linear. Chosen, not
+/// tuned.
 const STEPS: u32 = 20;
-/// Change of the states at which they count as at rest, relative to their size or to one [-]: differences give ten digits.
+/// States count as at rest if they change by less than this, relative to their size or to one [-]. Differences give ten digits.
 const RESTING: f64 = 1e-9;
-/// Fraction of the rates that no change of the states can remove, and that is tolerated [-]: differences give ten digits.
+/// Fraction of the rates that may remain because no change of the states can remove it [-]. Differences give ten digits.
 const LEFT: f64 = 1e-6;
 /// Derivative of the rates that counts as zero, relative to the largest one [-]. Chosen, not tuned.
 const NO_SLOPE: f64 = 1e-12;
 
-/// Moves the mechanism and the states of signals to an equilibrium in which these states are at rest too: inputs of integrals are zero, and
-/// lags have reached their inputs. The mechanism must be at equilibrium with the present states. Does nothing without states.
+/// Moves the mechanism and the states of signals to an equilibrium in which these states are at rest too. Inputs of integrals are then
+/// zero, and the output of each lag equals its input. The mechanism must be at equilibrium with the present states. Does nothing if the
+/// signals have no states.
 ///
+/// Cost: a linearisation and a search for an equilibrium in each step.
 /// Cost: a linearisation and a search for an equilibrium in each step.
 ///
 /// # Errors
@@ -96,8 +99,8 @@ pub fn rest_signals<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 }
 
 impl<T: Real> Linear<T> {
-    /// Returns the change of the signals' states that makes the rates zero, while the mechanism stays in equilibrium: z = K^-1 (df/dx) x.
-    /// `None` if no change does.
+    /// Returns the change of the signals' states x that makes their rates zero, while the mechanism stays in equilibrium: z = K^-1 (df/dx)
+    /// x. Returns `None` if no change makes the rates zero.
     fn rest(&self, rates: &[T]) -> Option<Vec<T>> {
         let (f, n, of) = (self.n_freedoms, self.signals.n, &self.signals);
         let stiffness = Pivoted::new(f, self.stiffness.clone(), self.noise);

@@ -6,8 +6,8 @@
 //! A = U Σ Vᵀ,   σ₁ ≥ σ₂ ≥ … ≥ 0,   U = U₁ S …,   V = V₁ T …
 //! ```
 //!
-//! U and V are products of reflections and rotations, so that they are orthogonal to machine precision, whatever the rank. An entry of B
-//! below ε ‖B‖ counts as zero, so that all singular values have an error of a small multiple of ε σ₁.
+//! U and V are products of reflections and rotations, so they are orthogonal to machine precision for every rank. An entry of B below ε ‖B‖
+//! counts as zero. So all singular values have an error of a small multiple of ε σ₁.
 
 use crate::matrix::{Matrix, add, dot};
 use alloc::vec;
@@ -25,10 +25,11 @@ pub struct Svd {
     pub v: Matrix,
 }
 
-/// Sweeps for each singular value, at most; two are usual.
+/// Largest number of sweeps for each singular value. Two sweeps are usual.
 const MAX_SWEEPS: usize = 60;
 
-/// Sum of squares that counts as zero relative to a matrix of order one [-]. It is above 1e-308, where numbers lose digits.
+/// Sum of squares that counts as zero in a matrix with entries of order one [-]. Numbers below 1e-308 lose digits, and this limit is far
+/// above.
 const TINY: f64 = 1e-280;
 
 /// Singular vectors that a caller requires.
@@ -81,7 +82,7 @@ fn of(matrix: &Matrix, vectors: Vectors) -> Option<Svd> {
 fn tall(mut a: Matrix, vectors: Vectors) -> Option<Svd> {
     let (m, n) = (a.n_rows(), a.n_columns());
     let largest = a.largest()?;
-    // Scaled to entries of order one by a power of two, so that nothing is rounded.
+    // The matrix is scaled to entries of order one. The scale is a power of two, so that no entry is rounded.
     let scale = if largest > 0.0 { power_of_two(largest) } else { 1.0 };
     a.scale(1.0 / scale);
     let reduced = Bidiagonal::of(&mut a);
@@ -100,7 +101,7 @@ fn power_of_two(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & (0x7FF << 52)).max(f64::MIN_POSITIVE)
 }
 
-/// Diagonals d and e of B, with the reflections: the vectors of those from the left are below the diagonal of A.
+/// Diagonals d and e of B, and the reflections. The vectors of the left reflections are stored in A, on and below its diagonal.
 struct Bidiagonal {
     d: Vec<f64>,
     e: Vec<f64>,
@@ -263,7 +264,7 @@ impl Chase {
 
     /// Makes one step of the QR iteration on rows low to high.
     fn sweep(&mut self, low: usize, high: usize) {
-        // (d² − μ) / d and e, the first column of BᵀB − μ
+        // (d² − μ) / d and e: the first column of BᵀB − μ, divided by d
         let (mut f, mut g) = (self.d[low] - self.shift(low, high) / self.d[low], self.e[low]);
         for k in low..high {
             let (c, s, r) = rotation(f, g);
@@ -295,7 +296,7 @@ impl Chase {
         let (first, last) = (d * d + before * before, self.d[high] * self.d[high] + e * e);
         let half = (first - last) / 2.0;
         let beside = d * e;
-        // `half` may be zero, but `beside` is not, because d and e are not; so the denominator is not zero.
+        // Neither d nor e is zero, so `beside` is not zero. So the denominator is not zero, even if `half` is.
         last - beside / (half + libm::hypot(half, beside).copysign(half)) * beside
     }
 

@@ -43,7 +43,8 @@ const NO_INERTIA: f64 = 1e-13;
 
 impl<T: Real> TangentCoordinates<T> {
     /// Splits the coordinates by `jacobian`, given row by row (m rows of n); `mass` multiplies a vector of n by M. Rows of velocities,
-    /// `is_late`, are eliminated after all others. Where they depend on rows of positions, positions are then closed by the latter.
+    /// marked in `is_late`, are eliminated after all others. So where they depend on rows of positions, the rows of positions are the
+    /// independent ones.
     ///
     /// Fails with the index of a freedom without inertia.
     pub(crate) fn new(
@@ -107,7 +108,7 @@ impl<T: Real> TangentCoordinates<T> {
         self.n - self.rows.len()
     }
 
-    /// Subtracts from x the smallest d with J0 d = b on the independent rows.
+    /// Subtracts from x the smallest d with J0 d = b on the independent rows of the Jacobian J0.
     pub(crate) fn correct(&self, b: &[T], x: &mut [T]) {
         let rank = self.rows.len();
         let mut y = vec![T::ZERO; rank];
@@ -155,8 +156,8 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
-/// Returns the independent rows, those that are not `is_late` first, with their lengths, Q and R11. A row depends on the others if after
-/// elimination it is shorter than max(n, m) EPSILON^(2/3) of the largest one.
+/// Returns the independent rows with their lengths, Q and R11. The rows that are not `is_late` are first. A row depends on the others if
+/// elimination makes it shorter than max(n, m) EPSILON^(2/3) times the largest row.
 fn factor<T: Real>(
     n: usize,
     jacobian: &mut [T],
@@ -261,7 +262,8 @@ mod tests {
 
     #[test]
     fn a_repeated_row_leaves_the_split_as_it_is() {
-        // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): the freedoms are x - y with mass 4/2, and w.
+        // The rows x + y = 0 (twice) and z = 0 in the coordinates x, y, z, w with mass diag(1, 3, 1, 4): the freedoms are x - y with mass
+        // 4/2, and w.
         let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
         let tangent = TangentCoordinates::new(&[1.0; 4], (jacobian, |_| false), mass)

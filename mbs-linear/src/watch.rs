@@ -31,7 +31,7 @@ impl<'a, T: Real> Watch<'a, T> {
         self.state.applied[place] = value;
     }
 
-    /// Returns the outputs for this motion; the terms are those evaluated for it.
+    /// Returns the outputs for this motion. The model's terms must be those evaluated for it.
     pub(crate) fn outputs(
         &mut self,
         (model, terms): (&impl Model<T>, &Terms<T>),

@@ -7,9 +7,9 @@
 //!
 //! Coordinates are scaled by their sizes: the scene's length for points, one for directions. So no result depends on the unit of length.
 //!
-//! delta allows redundant rows. Iteration of the multipliers removes the violation that delta leaves, so that no result depends on it. W_k is
-//! the largest mass among the coordinates of the row. So delta is small relative to the compliance of the row in every mechanism. A W_k of
-//! coordinates without mass would make the violation larger than the iteration can remove.
+//! delta allows redundant rows. Iteration of the multipliers removes the violation that delta leaves, so that no result depends on it. W_k
+//! is the largest mass among the coordinates of the row. So delta is small relative to the compliance of the row in every mechanism. If W_k
+//! came from a coordinate without mass, the violation would be larger than the iteration can remove.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -20,7 +20,8 @@ use mbs_core::{BlockSource, FactorError, Real, SymmetricSolver};
 
 /// Compliance δ of a constraint, relative to the compliance of its row [-]. Chosen, not tuned.
 const DELTA: f64 = 1e-9;
-/// Least mass of a coordinate, relative to the largest, that counts in a comparison [-]: an inverse mass stays finite. Chosen, not tuned.
+/// Least mass of a coordinate, relative to the largest mass [-]. Smaller masses are raised to it or left out, so that an inverse mass stays
+/// finite. Chosen, not tuned.
 const LIGHT: f64 = 1e-6;
 
 /// Workspace over a solver `S` that was analysed for the [`Saddle`] of the model.
@@ -30,7 +31,7 @@ pub struct Workspace<T, S> {
     saddle: Saddle,
     pub(crate) terms: Terms<T>,
     jacobian: Vec<T>,
-    /// Size of each coordinate in the scene [m or -], and the largest change of each row by a displacement of a coordinate by its size.
+    /// Size of each coordinate in the scene [m or -], and the largest change of each row if one coordinate moves by its size.
     pub(crate) sizes: Vec<T>,
     row_sizes: Vec<T>,
     delta: Vec<T>,
@@ -175,8 +176,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.work(&self.diagonal)
     }
 
-    /// Returns the largest acceleration that a single term of the last residual would cause, in sizes of coordinates [1/s^2]. Rounding errors
-    /// are relative to it. Coordinates with little mass are left out.
+    /// Returns the largest acceleration that a single term of the last residual would cause, relative to the sizes of coordinates [1/s^2].
+    /// Rounding errors are relative to it. Coordinates with little mass are left out.
     pub(crate) fn liveliness<M: Model<T>>(&mut self, model: &M) -> T {
         let forces = self.diagonal.clone();
         let tangent =

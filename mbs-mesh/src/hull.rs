@@ -1,13 +1,14 @@
 //! Convex hull of points, as a mesh of triangles.
 //!
-//! Each outside point is added in turn (quickhull). The triangles that the point sees are removed, and their rim is joined to the point.
-//! Sides are determined exactly, with points rounded to a fine grid. So faces with many points in one plane need no tolerance.
+//! Each outside point is added in turn (quickhull). The triangles whose outer side faces the point are removed, and new triangles join the
+//! rim of the gap to the point. The points are rounded to a fine grid, and the side of a triangle on which a point is follows exactly. So
+//! faces with many points in one plane need no tolerance.
 
 use crate::TriangleMesh;
 use std::collections::HashMap;
 
-/// Steps of the grid along the longest side of the points [-]. The product of three sides then has 126 bits, and fits into an `i128` with its
-/// sign.
+/// Number of grid steps along the longest side of the points [-]. The product of three sides then has 126 bits, and fits into an `i128`
+/// with its sign.
 const GRID: f64 = (1_u64 << 40) as f64;
 
 /// A triangle of the hull during its construction.
@@ -44,7 +45,7 @@ pub fn hull(points: &[[f64; 3]]) -> Option<TriangleMesh> {
     Some(hull.surface(points))
 }
 
-/// Rounds the points to the grid; `None` if they are all the same, or not finite.
+/// Rounds the points to the grid. Returns `None` if all points are the same, or one is not finite.
 fn snapped(points: &[[f64; 3]]) -> Option<Vec<[i128; 3]>> {
     let end = |axis: usize, pick: fn(f64, f64) -> f64| {
         points.iter().map(|point| point[axis]).reduce(pick).unwrap_or(0.0)
@@ -63,7 +64,7 @@ impl Hull {
         [0, 1, 2].map(|axis| self.points[a][axis] - self.points[b][axis])
     }
 
-    /// Returns six times the volume between a triangle and a point; it is positive where the point sees the triangle from outside.
+    /// Returns six times the volume between a triangle and a point. It is positive if the point is on the outer side of the triangle.
     fn volume(&self, [a, b, c]: [usize; 3], point: usize) -> i128 {
         let [u, v, w] = [b, c, point].map(|x| self.minus(x, a));
         let cross = |i: usize, j: usize| u[i] * v[j] - u[j] * v[i];
@@ -105,7 +106,7 @@ impl Hull {
         number
     }
 
-    /// Assigns each point to the first of some faces that it sees; a point that sees none is inside the hull.
+    /// Assigns each point to the first of some faces that has the point on its outer side. A point without such a face is inside the hull.
     fn assign(&mut self, points: Vec<usize>, faces: &[usize]) {
         for point in points {
             let sees = |face: &&usize| self.volume(self.faces[**face].corners, point) > 0;
@@ -122,7 +123,7 @@ impl Hull {
         far.max_by_key(|point| self.volume(*corners, *point))
     }
 
-    /// Adds a point that sees a face to the hull. Returns the new faces.
+    /// Adds a point on the outer side of a face to the hull. Returns the new faces.
     fn add(&mut self, point: usize, face: usize) -> Vec<usize> {
         let mut seen = vec![face];
         self.faces[face].is_there = false;

@@ -21,7 +21,7 @@ const MOST_BYTES: u64 = 64 << 20;
 /// A surface made of triangles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TriangleMesh {
-    /// Points of the surface [m or the file's unit]; no two are the same.
+    /// Points of the surface [m or the file's unit]. No two points are the same.
     pub vertices: Vec<[f64; 3]>,
     /// Indices of the three vertices of each triangle.
     pub triangles: Vec<[usize; 3]>,
@@ -72,7 +72,7 @@ impl Display for MeshFault {
 
 impl core::error::Error for MeshFault {}
 
-/// Returns the extension of a file in lower case; empty without one.
+/// Returns the extension of a file in lower case. Returns an empty text if the file has none.
 #[must_use]
 pub fn mesh_ending(path: &Path) -> String {
     path.extension().and_then(|x| x.to_str()).unwrap_or_default().to_ascii_lowercase()
@@ -87,8 +87,8 @@ impl TriangleMesh {
         Self::read_parts(path, Parts::All)
     }
 
-    /// Reads a surface from a file. From an OBJ file it reads all vertices, but only the triangles of the first object or group that MuJoCo
-    /// keeps.
+    /// Reads a surface from a file. From an OBJ file it reads all vertices, but only the triangles that MuJoCo reads: those of the first
+    /// object or group that has triangles.
     ///
     /// # Errors
     /// The errors of [`read`](Self::read).
@@ -102,7 +102,7 @@ impl TriangleMesh {
             return Err(MeshFault::Ending);
         }
         let fault = |error: std::io::Error| MeshFault::File(error.kind());
-        // opening a pipe would block
+        // opening a pipe would wait for a writer
         if !std::fs::metadata(path).map_err(fault)?.is_file() {
             return Err(MeshFault::File(ErrorKind::InvalidInput));
         }
@@ -189,13 +189,13 @@ impl Joined {
     }
 }
 
-/// Returns the next three words as numbers; `None` if they are not numbers.
+/// Returns the next three words as numbers. Returns `None` if one of them is not a number.
 fn coordinates<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<[f64; 3]> {
     let mut number = || words.next()?.parse().ok();
     Some([number()?, number()?, number()?])
 }
 
-/// Reads an STL file: binary with a header of 80 bytes and a count, or text.
+/// Reads an STL file. It is either text, or binary with a header of 80 bytes and a count.
 fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     /// Size of the header, and of each triangle [bytes].
     const SIZES: [usize; 2] = [80, 50];
@@ -230,7 +230,8 @@ fn stl(bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     Ok(joined.mesh)
 }
 
-/// Reads an OBJ file: lines `v x y z` and `f a b c ...`. A corner may be `a/b/c`; indices count from 1, negative ones from the end.
+/// Reads an OBJ file: lines `v x y z` and `f a b c ...`. A corner may be `a/b/c`. Indices count from 1, and negative indices count from the
+/// last vertex.
 fn obj(bytes: &[u8], parts: Parts) -> Result<TriangleMesh, MeshFault> {
     let text = core::str::from_utf8(bytes).map_err(|_| MeshFault::NotText)?;
     let (mut joined, mut numbers, mut counts) = (Joined::default(), Vec::new(), true);

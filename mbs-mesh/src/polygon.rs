@@ -2,7 +2,7 @@
 //! A larger one is projected along an axis of the file and cut by ears. The test for an ear depends on the side on which an edge passes the
 //! origin, so that triangles may be lost.
 
-/// Corners above which MuJoCo leaves out a polygon [-]: measured with regular polygons of 98 to 600 corners.
+/// Largest number of corners of a polygon that MuJoCo reads [-]. The number was measured with regular polygons of 98 to 600 corners.
 const MOST_CORNERS: usize = 100;
 
 type Point = [f64; 3];
@@ -11,8 +11,8 @@ fn minus(a: Point, b: Point) -> Point {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
-/// Returns the triangles of a polygon of three or more corners, and the corners of the part that MuJoCo loses. Where corners are not in one
-/// plane, or dents are counted, the volume of a mesh depends on both.
+/// Returns the triangles of a polygon of three or more corners, and the corners of the part that MuJoCo loses. If the corners are not in
+/// one plane, or if the volume rule counts dents, the volume of a mesh depends on both results.
 pub(crate) fn triangles(
     corners: &[usize],
     place: impl Fn(usize) -> Point,
@@ -47,7 +47,7 @@ fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> (Vec<[usize; 3]>, 
     let (mut at, mut looks, mut before) = (0, left.len(), left.len());
     while left.len() > 3 && looks > 0 {
         let n = left.len();
-        // as in MuJoCo, only the first pass counts its first trial: an ear that is found last in the first pass ends the search
+        // as in MuJoCo, the first trial counts in the first pass only: if the last trial of the first pass finds an ear, the search ends
         looks = if n == before { looks - 1 } else { n };
         before = n;
         at %= n;
@@ -68,7 +68,8 @@ fn ears(corners: &[usize], place: impl Fn(usize) -> Point) -> (Vec<[usize; 3]>, 
     (found, left)
 }
 
-/// Returns the two axes orthogonal to the axis closest to the normal, which is taken at the first corner with an angle.
+/// Returns the two axes orthogonal to the axis closest to the polygon's normal. The normal is that of the first corner that is not
+/// straight.
 fn axes_seen(corners: &[usize], place: &impl Fn(usize) -> Point) -> [usize; 2] {
     let n = corners.len();
     let normal = (0..n).find_map(|i| {
@@ -89,15 +90,15 @@ fn axes_seen(corners: &[usize], place: &impl Fn(usize) -> Point) -> [usize; 2] {
     }
 }
 
-/// Does the corner turn to the side on which its first edge passes the origin, or go straight on?
+/// True if the corner turns to the side on which its first edge passes the origin, or goes straight on.
 fn turns_as_the_origin_is_passed([a, b, c]: [[f32; 2]; 3]) -> bool {
     let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
     let passed = (a[0] * b[1] - a[1] * b[0]) * 0.5;
-    // a product as in MuJoCo's reader, since it may underflow to zero
+    // a product as in MuJoCo's reader, because the product may underflow to zero
     !(turn * passed < 0.0)
 }
 
-/// Is a point inside a triangle? Decided by the number of edges that a ray along the first axis crosses.
+/// True if a point is inside a triangle. The test counts the edges that a ray along the first axis crosses.
 fn is_within([x, y]: [f32; 2], triangle: [[f32; 2]; 3]) -> bool {
     let crossings = [[0, 2], [1, 0], [2, 1]].map(|ends| {
         let [a, b] = ends.map(|end| triangle[end]);

@@ -4,7 +4,8 @@ use crate::TriangleMesh;
 use std::collections::{HashMap, HashSet};
 
 impl TriangleMesh {
-    /// Returns the mesh without unused vertices. Vertices are in the order of their use, so that successive indices differ little.
+    /// Returns the mesh without unused vertices. Vertices are in the order in which triangles use them, so that successive indices differ
+    /// little.
     #[must_use]
     pub fn used(&self) -> Self {
         let (mut numbers, mut vertices) = (vec![None; self.vertices.len()], Vec::new());
@@ -31,7 +32,8 @@ impl TriangleMesh {
         self.triangles.iter().map(of).sum()
     }
 
-    /// Replaces all corners in a cell by their mean. Triangles with fewer than three different corners are left out, and so are duplicates.
+    /// Replaces all vertices in a cell of a grid by their mean. Triangles with fewer than three different vertices are left out, and so are
+    /// duplicates.
     ///
     /// `cell` is the width of the cells, in the unit of the vertices.
     #[must_use]

@@ -7,13 +7,13 @@ use std::collections::HashMap;
 type V3 = Vector<f64, 3>;
 type M3 = Matrix<f64, 3>;
 
-/// Rule by which the tetrahedra between a point and the triangles are summed.
+/// Rule for the sum over tetrahedra, each between a point and a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VolumeRule {
-    /// Sum with the sign of the volume: the enclosed volume, for closed surfaces only.
+    /// Sum of signed volumes, which is the enclosed volume for closed surfaces only.
     Signed,
-    /// Sum of absolute volumes. The centre is computed from the centre of the surface, all else from that centre. Dents add volume; holes do
-    /// no harm.
+    /// Sum of absolute volumes. The centre is computed with tetrahedra from the centre of the surface. All other results are computed with
+    /// tetrahedra from that centre. Dents add volume. Holes are allowed.
     Unsigned,
     /// No tetrahedra: the triangles are a thin shell, whose area is its size.
     Shell,
@@ -26,12 +26,12 @@ pub struct Solid {
     pub size: f64,
     /// Centre [m].
     pub center: V3,
-    /// Inertia tensor about the centre [m⁵], of a shell [m⁴].
+    /// Inertia tensor about the centre: [m⁵] for a volume, [m⁴] for a shell.
     pub tensor: M3,
 }
 
 impl TriangleMesh {
-    /// Returns an edge without a triangle on its other side; `None` if the surface is closed.
+    /// Returns an edge that only one triangle has. Returns `None` if the surface is closed.
     #[must_use]
     pub fn open_edge(&self) -> Option<[usize; 2]> {
         let mut edges: HashMap<[usize; 2], i64> = HashMap::new();
@@ -52,7 +52,7 @@ impl TriangleMesh {
             VolumeRule::Signed | VolumeRule::Unsigned => self.sums(&self.surface_center(), rule).1,
             VolumeRule::Shell => self.surface_center(),
         };
-        // about this centre: the sums depend on the point where tetrahedra are not signed, and for open surfaces
+        // The sums are about this centre. They depend on the reference point if tetrahedra are not signed, and for open surfaces.
         let (size, second) = match rule {
             VolumeRule::Shell => self.areas(&center),
             _ => {
@@ -67,7 +67,7 @@ impl TriangleMesh {
         vector(self.vertices[i])
     }
 
-    /// Returns volume, centre, and second moments of volume about a point.
+    /// Returns the volume, the centre, and the second moments of volume about a point.
     fn sums(&self, origin: &V3, rule: VolumeRule) -> (f64, V3, M3) {
         let (mut volume, mut first, mut second) = (0.0, V3::zeros(), M3::zeros());
         for triangle in &self.triangles {
@@ -84,7 +84,7 @@ impl TriangleMesh {
         (volume, center, second)
     }
 
-    /// Returns area, and second moments of area about a point.
+    /// Returns the area, and the second moments of area about a point.
     fn areas(&self, origin: &V3) -> (f64, M3) {
         let (mut area, mut second) = (0.0, M3::zeros());
         for triangle in &self.triangles {

@@ -7,19 +7,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 
-/// Stack size of the thread of a job [bytes]: that of the first thread of a process on most systems.
+/// Stack size of the thread of a job [bytes]. It equals the stack size of the first thread of a process on most systems.
 const STACK: usize = 8 << 20;
 
 /// Result of a job, or its panic.
 type Done<R> = Result<R, Panicked>;
 
-/// Runs a job on a separate thread, and calls `look` on the calling thread once in each `period` until the job ends. A job that panics gives
-/// a result too.
+/// Runs a job on a separate thread, and calls `look` on the calling thread once in each `period` until the job ends. If the job panics, the
+/// function returns the panic as an error.
 ///
-/// Cost: a thread. The end of the job is noticed at once.
+/// Cost: a thread. The function returns as soon as the job ends, without waiting for the end of a `period`.
 ///
 /// # Errors
-/// [`Panicked`] with the message of the job's panic, or with the message that the system gives no thread.
+/// [`Panicked`] with the message of the job's panic, or with a message that the system provides no thread.
 ///
 /// ```
 /// use core::time::Duration;
@@ -43,7 +43,8 @@ pub fn beside<R: Send>(
     })
 }
 
-/// Runs a job as [`beside`] does, but leaves the job when `look` breaks. The job then ends without a caller, and its result is lost.
+/// Runs a job as [`beside`] does, but stops waiting for the job when `look` breaks. The job then continues on its thread, and its result is
+/// lost.
 ///
 /// # Errors
 /// As for [`beside`].
@@ -69,7 +70,7 @@ fn reported<R: Send>(job: impl FnOnce() -> R + Send) -> (impl FnOnce() + Send, R
     let (sender, receiver) = channel();
     let job = move || {
         let done = catch_unwind(AssertUnwindSafe(job)).map_err(Panicked::new);
-        // the receiver is gone if the caller has left the job
+        // the receiver no longer exists if the caller has stopped waiting for the job
         let _ = sender.send(done);
     };
     (job, receiver)

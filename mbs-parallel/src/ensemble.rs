@@ -19,11 +19,11 @@ pub struct Ensemble {
     threads: NonZeroUsize,
 }
 
-/// Error of an operating system that gave no threads.
+/// Error of an operating system that provides too few threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum EnsembleError {
-    /// So many threads could not be started.
+    /// The system could not start this number of threads.
     Threads(NonZeroUsize),
 }
 
@@ -32,12 +32,12 @@ pub enum EnsembleError {
 pub struct Panicked(String);
 
 impl Ensemble {
-    /// Starts `threads` threads; by default one for each processor of this process. One thread runs the same code as many.
+    /// Starts `threads` threads; by default one for each processor of this process. One thread runs the same code as several threads.
     ///
     /// Cost: the threads exist until the ensemble is dropped, and wait without load.
     ///
     /// # Errors
-    /// [`EnsembleError::Threads`] when the system gives fewer.
+    /// [`EnsembleError::Threads`] when the system provides fewer threads.
     pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, EnsembleError> {
         let threads = threads.unwrap_or_else(available);
         let builder = ThreadPoolBuilder::new().num_threads(threads.get());
@@ -54,9 +54,9 @@ impl Ensemble {
 
     /// Runs `job(i)` for every `i` in `jobs`, and passes each result to `sink` in the order of completion.
     ///
-    /// Jobs begin in the order of the list: each thread takes the next job when its last one has ended. `sink` is called on the calling
-    /// thread, which runs no job. When `sink` breaks, no further job begins, and the results of running jobs are dropped. A panic of a job is
-    /// a result too. Such a job may leave data half-changed, so jobs should share only data that they do not change.
+    /// Jobs begin in the order of the list: each thread starts the next job when its last one has ended. `sink` is called on the calling
+    /// thread, which runs no job. When `sink` breaks, no further job begins, and the results of running jobs are dropped. The result of a
+    /// job that panics is its panic. Such a job may leave data half-changed, so jobs should share only data that they do not change.
     ///
     /// Cost: one atomic addition and one message for each job.
     pub fn run<R: Send>(
@@ -77,7 +77,7 @@ impl Ensemble {
                     }
                 }
             });
-            // ends when every thread has dropped its sender
+            // the loop ends when every thread has dropped its sender
             for (i, result) in receiver {
                 if sink(i, result).is_break() {
                     next.store(jobs.len(), Ordering::Relaxed);
@@ -88,7 +88,7 @@ impl Ensemble {
     }
 }
 
-/// Returns the number of processors that this process may use; one where the system does not report it.
+/// Returns the number of processors that this process may use. Returns one if the system does not report it.
 #[must_use]
 pub fn available() -> NonZeroUsize {
     std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)

@@ -5,7 +5,7 @@ use mbs_parallel::{Pool, ThreadTeam, Threads};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Either kind of team.
+/// A team of any kind.
 #[derive(Debug)]
 enum Any {
     Threads(Threads),
@@ -101,7 +101,7 @@ fn a_panic_on_either_side_reaches_the_caller_and_the_team_works_on() {
             };
             let result = catch_unwind(AssertUnwindSafe(|| team.join(|| act(0), || act(1))));
             assert!(result.is_err(), "{team:?}");
-            // A side that does not panic may or may not have begun. It must not run after `join` has returned.
+            // If one side of a fork panics, the other side may or may not have begun. It must not run after `join` has returned.
             let before = done.load(Ordering::Relaxed);
             let leaves = AtomicUsize::new(0);
             assert_eq!(forks(&team, 6, 1, &leaves), (64..128).sum::<u64>());
@@ -178,7 +178,7 @@ fn vectors_and_sums_have_the_bits_of_one_thread() {
         team::sum(team, x.len(), |from, to| x[from..to].iter().fold(0.0, |sum, x| sum + x * x))
     };
     let expected = dot(&Any::Threads(Threads::One));
-    // The tolerance against the sum in order covers rounding errors of 1e5 additions of values up to 1e6.
+    // The tolerance for the difference from the sum in order covers rounding errors of 1e5 additions of values up to 1e6.
     let plain: f64 = x.iter().map(|x| x * x).sum();
     assert!((expected - plain).abs() < 1e-12 * plain);
     for team in teams() {

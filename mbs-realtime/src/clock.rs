@@ -7,7 +7,7 @@ pub trait Clock {
     /// Returns the time since a fixed instant.
     fn now(&self) -> Duration;
 
-    /// Gives the processor to others for at least `time`; the wake-up may come later.
+    /// Releases the processor for at least `time`. The wake-up may come later.
     fn sleep(&mut self, time: Duration);
 
     /// Makes one pass of an active wait.
@@ -60,7 +60,7 @@ impl Clock for SystemClock {
     }
 }
 
-/// Waits until `target`: asleep until `awake` before it, then actively. Returns at once if it is past.
+/// Waits until `target`: asleep until the time `awake` before it, then actively. Returns at once if `target` is past.
 pub fn wait_until(clock: &mut impl Clock, target: Duration, awake: Duration) {
     let rest = target.saturating_sub(clock.now());
     if rest > awake {

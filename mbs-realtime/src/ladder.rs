@@ -6,22 +6,23 @@
 //! f:    doubled, up to 64, by a fall that comes before a rise has lasted as long as the quiet time; 1 again after one that has
 //! ```
 //!
-//! A task that is late only because it began late does not show that its level is too high: the delay is reduced by shorter tasks.
+//! A task that is late only because it began late does not show that its level is too high. Tasks shorter than a period reduce the delay.
 
 use crate::log::Action;
 use std::time::Duration;
 
-/// Largest ratio of the quiet time to the requested one [-]: six doublings. Chosen, not tuned.
+/// Largest value of the factor f on the quiet time [-]. It is reached after six doublings. Chosen, not tuned.
 const MOST_TIMES: u32 = 64;
 
-/// Condition on which a degraded loop goes up a level.
+/// Condition on which a degraded loop goes up one level. The quiet time is the time in which `tasks` light tasks follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recovery {
     /// Number of successive tasks that must be in time and light. `≥ 1`.
     pub tasks: u32,
     /// Duration up to which a task is light, in percent of a period. `1 ..= 100`.
     pub percent: u32,
-    /// Number of successive late tasks, each shorter than a period, after which the level goes down anyway, since the delay does not shrink.
+    /// Number of successive late tasks, each shorter than a period, that are allowed at a level. After one more the level goes down,
+    /// because the delay does not disappear.
     pub patience: u32,
 }
 
@@ -48,7 +49,7 @@ pub(crate) struct DegradationLadder {
 }
 
 impl DegradationLadder {
-    /// Creates a ladder of `levels` `≥ 1` levels: 0 is everything, `levels − 1` the least.
+    /// Creates a ladder of `levels` `≥ 1` levels. At level 0 the loop does all its work, at level `levels − 1` the least.
     pub(crate) fn new(quiet: Recovery, period: Duration, levels: usize) -> Self {
         Self {
             quiet,
@@ -66,7 +67,7 @@ impl DegradationLadder {
         self.level
     }
 
-    /// Counts a task on the ladder. Returns the action after it, if there is one.
+    /// Counts a task on the ladder. Returns the action after the task, if there is one.
     pub(crate) fn after(&mut self, is_late: bool, duration: Duration) -> Option<Action> {
         self.watch_rise();
         if is_late { Some(self.late(duration)) } else { self.in_time(duration) }
@@ -100,7 +101,7 @@ impl DegradationLadder {
         Some(Action::Up { to: self.level })
     }
 
-    /// Accepts a rise that has lasted as long as the quiet time, and resets the factor f to one.
+    /// Resets the factor f to one when a rise has lasted as long as the quiet time.
     fn watch_rise(&mut self) {
         let needed = self.needed();
         if let Some(tasks) = &mut self.since_rise {

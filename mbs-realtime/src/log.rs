@@ -2,14 +2,14 @@
 
 use std::time::Duration;
 
-/// Action after a task that was late, or after which the level changed.
+/// Action after a task that was late or that changed the level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
-    /// Late task that was finished; the next one began at once.
+    /// Late task whose result was published at once; the next task also began at once.
     Finished,
     /// Late task whose result was held until the end of a period.
     Held {
-        /// Number of periods in which the result before remained valid.
+        /// Number of periods for which the previous result remained valid.
         periods: u64,
     },
     /// Late task, after which the level goes down to this one.

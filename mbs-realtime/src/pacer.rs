@@ -17,12 +17,12 @@ use std::time::Duration;
 /// Policy for a task that ends after its deadline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Overrun {
-    /// The late result is published at once, and the next task begins at once. The schedule does not change. Tasks that are shorter than a
-    /// period reduce the delay until it is gone, and no task is left out.
+    /// The late result is published at once, and the next task begins at once. The schedule does not change. No task is left out. Tasks
+    /// that are shorter than a period reduce the delay until it is zero.
     #[default]
     Finish,
-    /// The late result is published at the next end of a period, and the next task begins there. Until then the last result remains valid.
-    /// The schedule is shifted by these periods for good: no task is left out, but each comes later.
+    /// The late result is published at the next end of a period, and the next task begins then. Until then the last result remains valid.
+    /// All later tasks are shifted by these periods, and no task is left out.
     Hold,
     /// The loop continues as with [`Finish`](Self::Finish), and the level goes down one step of the ladder. [`Recovery`] decides when it goes
     /// up again.
@@ -36,11 +36,12 @@ pub struct Pace {
     pub period: Duration,
     /// Policy for a task that is late.
     pub overrun: Overrun,
-    /// Time before a begin for which the loop waits actively rather than asleep, since systems wake sleepers late. Zero: asleep only.
+    /// Time before a task's begin in which the loop waits actively. Before that it sleeps. Active waiting is useful because systems wake
+    /// sleepers late. With zero the loop only sleeps.
     pub awake: Duration,
     /// Condition on which a degraded loop goes up a level.
     pub quiet: Recovery,
-    /// Entries of the log at most; further ones are only counted.
+    /// Largest number of entries of the log. Further entries are only counted.
     pub log: usize,
 }
 
@@ -87,7 +88,7 @@ impl core::error::Error for PaceError {}
 pub struct Task {
     /// Number of the task, from 0.
     pub index: u64,
-    /// The level of the ladder at which the task is to run: 0 is everything.
+    /// The level of the ladder for this task. At level 0 the task does all its work.
     pub level: usize,
 }
 
@@ -96,14 +97,14 @@ pub trait Work {
     /// Error after which the work cannot continue.
     type Error;
 
-    /// Does the work of one period: read inputs, step. `Break` ends the loop after this task.
+    /// Does the work of one period, for example reads inputs and makes a step. `Break` ends the loop after this task.
     ///
     /// # Errors
     /// The error after which the work cannot continue; the loop then ends.
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, Self::Error>;
 
-    /// Publishes the result of a task, which becomes valid at this time: write outputs. It is called once for each task, at the end of its
-    /// period, or later as the policy for late tasks says.
+    /// Publishes the result of a task, which becomes valid at this time, for example writes outputs. It is called once for each task. The
+    /// time is the end of the task's period, or a later one by the policy for late tasks.
     fn publish(&mut self, task: Task) {
         let _ = task;
     }
@@ -137,7 +138,7 @@ pub struct Pacer {
 }
 
 impl Pacer {
-    /// Creates a loop for work with `levels` levels. With one level there is nothing to degrade to.
+    /// Creates a loop for work with `levels` levels. With one level the loop cannot degrade.
     ///
     /// # Errors
     /// [`PaceError`].
@@ -172,7 +173,7 @@ impl Pacer {
 
     /// Does at most `tasks` tasks, the first one at once, and returns when the last result is published.
     ///
-    /// A task that fails is not counted. A loop may be run again: its measures add up, its log continues, and its level stays.
+    /// A task that fails is not counted. A loop may be run again. It then continues with its measures, its log and its level.
     ///
     /// Cost of a task in addition to its work: two or three readings of the clock, and some hundred operations; no allocation.
     ///
@@ -281,7 +282,7 @@ impl Pacer {
         self.ladder.level()
     }
 
-    /// Returns the measures so far. It sorts the samples, so do not call it within the loop.
+    /// Returns the measures so far. This sorts the samples, so do not call it within the loop.
     #[must_use]
     pub fn report(&self) -> Report {
         let simulated = times(self.pace.period, self.tasks);

@@ -4,7 +4,7 @@ use crate::log::Entry;
 use crate::sample::{Sample, nearest_rank};
 use std::time::Duration;
 
-/// Percentiles of some times: half, 99 of 100, and all of them are not longer than these.
+/// Percentiles of a set of times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Spread {
     /// Median of the times.
@@ -28,13 +28,13 @@ pub struct Margin {
 
 /// Measures of a loop so far.
 ///
-/// Percentiles are exact up to 65,536 tasks. For longer loops they are those of every second task, every fourth, and so on. Extremes and
-/// counts include all tasks.
+/// Percentiles are exact for up to 65,536 tasks. In longer loops they are computed from every second task, then from every fourth, and so
+/// on. Extremes and counts include all tasks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Number of tasks done.
     pub tasks: u64,
-    /// Delays of the begins of tasks; a delay caused by the task before is not included.
+    /// Delays of the begins of tasks. A delay that the previous task caused is not included.
     pub jitter: Spread,
     /// Durations of tasks, from their begin to their end.
     pub duration: Spread,
@@ -52,18 +52,18 @@ pub struct Report {
     pub at_level: Vec<u64>,
     /// Number of periods by which the schedule was shifted ([`Hold`](crate::Overrun::Hold)).
     pub skipped: u64,
-    /// Delay of the last result relative to the clock: the shift of the schedule plus the delay of its task.
+    /// Delay of the last result relative to the clock: the shift of the schedule plus the delay of the last task.
     pub behind: Duration,
     /// Time from the begin of the first task to the end of the last one.
     pub elapsed: Duration,
     /// Time of the tasks alone, without waiting.
     pub busy: Duration,
-    /// Ratio tasks × period / busy: how many times faster than real time the work is [-].
+    /// Real-time factor [-]: tasks × period / busy. The work takes this many times less than real time.
     pub real_time_factor: f64,
 }
 
 impl Report {
-    /// Did every task end by its deadline?
+    /// True if every task ended by its deadline.
     #[must_use]
     pub fn held(&self) -> bool {
         self.overruns == 0

@@ -6,16 +6,16 @@
 
 use std::time::Duration;
 
-/// Values that are stored at most: half a megabyte. Percentiles of runs up to this length are exact.
+/// Largest number of stored values: half a megabyte. Percentiles of runs up to this length are exact.
 const CAPACITY: usize = 1 << 16;
 
-/// Returns the value that `percent` of the ascending values, rounded down, do not exceed. It is one of the values; `None` if there are none.
+/// Returns a percentile of n ascending values: the value with index ⌊(n − 1) percent / 100⌋. Returns `None` if there are no values.
 #[must_use]
 pub fn nearest_rank<T>(sorted: &[T], percent: usize) -> Option<&T> {
     sorted.get(sorted.len().checked_sub(1)? * percent.min(100) / 100)
 }
 
-/// Sample of times [ns]: all of them up to the capacity, then every second one, every fourth, and so on.
+/// Sample of times [ns]: all times up to the capacity, then every second one, then every fourth, and so on.
 #[derive(Debug, Clone)]
 pub(crate) struct Sample {
     kept: Vec<i64>,
@@ -62,7 +62,7 @@ impl Sample {
     }
 }
 
-/// Converts a time to nanoseconds; the limit is about three hundred years.
+/// Converts a time to nanoseconds. The largest time is about three hundred years.
 pub(crate) fn nanos(time: Duration) -> i64 {
     i64::try_from(time.as_nanos()).unwrap_or(i64::MAX)
 }
@@ -84,13 +84,13 @@ mod tests {
         let mut sample = Sample::new();
         let n = 5 * CAPACITY as i64;
         for value in 0..n {
-            // A permutation in which order and size are unrelated.
+            // A permutation in which the order of the values does not depend on their size.
             sample.take((value * 1_000_003) % n);
         }
         let (sorted, range) = sample.sorted().expect("there are values");
         assert_eq!(range, [0, n - 1]);
         assert!(sorted.len() <= CAPACITY && sorted.len() > CAPACITY / 4);
-        // The percentile of about 40,000 distributed values differs from that of all values by less than a hundredth.
+        // The sample has about 40,000 values at regular distances. Its median differs from that of all values by less than a hundredth.
         let median = nearest_rank(&sorted, 50).expect("there are values");
         assert!((median - n / 2).abs() < n / 100, "{median} of {n}");
     }

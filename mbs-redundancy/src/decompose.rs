@@ -4,9 +4,9 @@
 //! P = N Nᵀ,   P_ij: the block of joints i and j
 //! ```
 //!
-//! N has orthonormal columns, so P is the orthogonal projector on the null space V and does not depend on the basis. Let the joints be
-//! divided into disjoint sets. V is a direct sum of spaces on these sets exactly if P is block diagonal over them. (The projector on a direct
-//! sum of such spaces is the sum of their projectors. Conversely, a block diagonal P splits V = P V.)
+//! N is a basis of the null space V with orthonormal columns. So P is the orthogonal projector on V and does not depend on the basis. Let
+//! the joints be divided into disjoint sets. V is a direct sum of spaces on these sets exactly if P is block diagonal over them. (The
+//! projector on a direct sum of such spaces is the sum of their projectors. Conversely, a block diagonal P splits V = P V.)
 //!
 //! So the finest sets are the connected components of the graph with an edge for each block P_ij ≠ 0. A rotation or scaling of the axes of a
 //! joint's rows rotates or scales the blocks, and does not change the sets.
@@ -15,19 +15,19 @@ use super::linkage::Jacobian;
 use mbs_core::cluster::root;
 use mbs_linear::{Matrix, singular_values};
 
-/// Largest entry of P that counts as zero [-]: the rounding errors for singular values above 1e-9.
+/// Largest entry of P that counts as zero [-]. Rounding errors are smaller if the singular values are above 1e-9.
 pub(crate) const ZERO: f64 = 1e-7;
 
-/// Group of joints that depend on each other, and the dimension of its null space.
+/// Group of joints with mutually dependent rows, and the dimension of its null space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
-    /// Indices of its joints within the part.
+    /// Indices of the group's joints within the part.
     pub places: Vec<usize>,
     /// Dimension of the null space of the group: its number of redundant equations.
     pub redundant: usize,
 }
 
-/// Returns all groups of a null space. Cost: m² k operations.
+/// Returns all groups of a null space. Cost: m² k operations for m rows and a null space of dimension k.
 pub fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
     let p = null.times(&null.transpose());
     let rows = &jacobian.rows;

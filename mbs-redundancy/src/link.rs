@@ -31,7 +31,7 @@ impl Link {
         self.transmission.n_directions()
     }
 
-    /// Returns the directions (wrenches) of the joint's rows at a pose; moments are unit forces at the lever `length` [m].
+    /// Returns the directions (wrenches) of the joint's rows at a pose. Moments are expressed as unit forces at the lever `length` [m].
     pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
         let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
         let mut all = Vec::with_capacity(self.n_rows());

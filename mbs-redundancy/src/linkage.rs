@@ -5,8 +5,8 @@
 //! on a body with centre c, unknowns (v, ℓ ω):       ± [f;  (m + (p − c) × f) / ℓ]
 //! ```
 //!
-//! ℓ is the length of the part that the joint belongs to, and moments are unit forces at the lever ℓ. So all rows and columns are of order
-//! one, whatever the unit of length. Masses do not enter: rank depends on geometry alone, and bodies may have no mass.
+//! ℓ is the length of the part that the joint belongs to. Moments are expressed as unit forces at the lever ℓ. So all rows and columns are
+//! of order one for every unit of length. The equations contain no masses: the rank depends on geometry alone, and bodies may have no mass.
 
 use super::Vector;
 use super::link::{Link, Poses};
@@ -26,7 +26,7 @@ pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
     (0..scene.bodies.len()).map(|b| RigidMotion::at_rest(mass_properties(scene, b).1)).collect()
 }
 
-/// A scene as bodies with six freedoms each (three in a plane), and joints that constrain some of these.
+/// A scene as bodies with six freedoms each (three in a plane), and joints that constrain some of these freedoms.
 #[derive(Debug, Clone)]
 pub struct Linkage {
     pub(crate) dimension: Dimension,
@@ -34,7 +34,7 @@ pub struct Linkage {
     /// Number of rotational freedoms of point masses. No joint has a row for them.
     n_idle: usize,
     pub(crate) links: Vec<Link>,
-    /// Parts of the mechanism; only joints of the same part can depend on each other, see [`Part`].
+    /// Parts of the mechanism. Only joints of the same part can depend on each other, see [`Part`].
     pub parts: Vec<Part>,
 }
 
@@ -87,7 +87,7 @@ impl Linkage {
         }
     }
 
-    /// Returns the number of rows of all joints, and of freedoms of all bodies. Point masses have no rotational freedoms.
+    /// Returns two numbers: the rows of all joints, and the freedoms of all bodies. Point masses have no rotational freedoms.
     #[must_use]
     pub fn sizes(&self) -> [usize; 2] {
         let rows = self.links.iter().map(Link::n_rows).sum();
@@ -146,7 +146,7 @@ impl Linkage {
         Jacobian { matrix, rows, wrenches }
     }
 
-    /// Returns the components of a force and a moment that the dimension has: [Fx, Fy, Mz] or all six.
+    /// Returns the components of a force and a moment that exist in the scene's dimension: [Fx, Fy, Mz] in a plane, otherwise all six.
     pub(crate) fn components(&self, force: &Vector, moment: &Vector) -> [f64; 6] {
         match self.dimension {
             Dimension::Planar => [force[0], force[1], moment[2], 0.0, 0.0, 0.0],

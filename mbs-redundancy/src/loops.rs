@@ -5,9 +5,9 @@
 //! turn = atan2(a·(AB × BC), AB̄·BC̄)      its sign is the branch, min(|turn|, π − |turn|) the distance to a straight line
 //! ```
 //!
-//! The two branches of a triangle meet where its three points are in a straight line. A part with one freedom has a single motion u
-//! with J u = 0. The drive ratio of joint j is then its rate relative to the fastest joint. A part that is driven at a joint with a ratio
-//! of zero is at a dead point, where it can change from one branch to the other.
+//! The two branches of a triangle meet where its three points are in a straight line. A part with one freedom has a single motion u with J
+//! u = 0. The drive ratio of a joint is its rate in this motion relative to that of the fastest joint. If a part is driven at a joint with
+//! a drive ratio of zero, it is at a dead point. There it can change from one branch to the other.
 
 use super::Vector;
 use super::link::{Poses, pose};
@@ -25,12 +25,12 @@ pub struct Corner {
     pub joint: usize,
     /// Signed angle of the corner about the joint's axis [rad]; not signed at a joint without an axis.
     pub turn: f64,
-    /// Is the sign of the angle preserved by a motion?
+    /// True if a motion preserves the sign of the angle.
     pub has_sign: bool,
 }
 
 impl Corner {
-    /// Returns the angle to the nearest configuration with the three points in a straight line [rad].
+    /// Returns the smallest change of the angle that puts the three points in a straight line [rad].
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.turn.abs().min(core::f64::consts::PI - self.turn.abs())
@@ -47,7 +47,7 @@ pub struct Loop {
 }
 
 /// Returns the shortest independent loops of a linkage at a pose. A spanning tree is built breadth first from the ground, and each joint
-/// outside it closes one loop. Cost: for each loop, proportional to the bodies of its part.
+/// that is not in the tree closes one loop. Cost: for each loop, proportional to the number of bodies of its part.
 #[must_use]
 pub fn loops(linkage: &Linkage, at: &Poses) -> Vec<Loop> {
     let parts = linkage.parts.iter().filter(|part| part.has_loop());
@@ -98,7 +98,7 @@ fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
             first.pop();
             second.pop();
         }
-        // The loop runs from the closing joint up one branch of the tree and down the other.
+        // The loop runs from the closing joint up one branch of the tree and down the other branch.
         let mut round: Vec<usize> =
             [j].into_iter().chain(second).chain(first.into_iter().rev()).collect();
         let least = (0..round.len()).min_by_key(|&i| round[i]).unwrap_or(0);
@@ -108,7 +108,7 @@ fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
     part.joints.iter().filter(|&&j| !in_tree(j)).map(close).collect()
 }
 
-/// Returns the corners at joints with a fixed point; the point of a sliding joint is arbitrary along its axis.
+/// Returns the corners at joints with a fixed point. Sliding joints have no corner, because their point along the axis is arbitrary.
 fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     let mut stations: Vec<(usize, Vector)> = Vec::new();
     let n = joints.len();
@@ -116,7 +116,7 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
         let link = &linkage.links[j];
         let kind = link.joint.kind;
         if kind.is_link() {
-            // Both points of a link, first the one on the body shared with the joint before.
+            // Both points of a link. The first is on the body that the link shares with the joint before.
             let before = linkage.links[joints[(i + n - 1) % n]].joint.bodies;
             let is_forward = before.contains(&link.joint.bodies[0]);
             let ends = if is_forward { [0, 1] } else { [1, 0] };
@@ -137,7 +137,8 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     (0..m).filter_map(corner).collect()
 }
 
-/// Distance of two points that counts as zero, relative to the sum of two neighbouring distances [-]. It has no direction. Chosen, not tuned.
+/// Distance of two points that counts as zero, relative to the sum of two neighbouring distances [-]. The direction between such points is
+/// undefined. Chosen, not tuned.
 const NO_LENGTH: f64 = 1e-9;
 
 fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) -> Option<Corner> {
@@ -165,12 +166,12 @@ fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) ->
 pub struct Drive {
     /// Index of the joint.
     pub joint: usize,
-    /// Ratio of the joint's rate to that of the fastest joint of the part, with the sign of the common motion [-]. Angles are multiplied by
-    /// the part's length.
+    /// Ratio of the joint's rate to that of the fastest joint of the part, with the sign in the common motion [-]. Rates of angles are
+    /// multiplied by the part's length.
     pub share: f64,
 }
 
-/// Returns the rates of the joints of a part with one freedom at a pose; empty for any other number of freedoms.
+/// Returns the rates of the joints of a part at a pose, if the part has one freedom. Returns an empty list otherwise.
 #[must_use]
 pub fn drives(linkage: &Linkage, part: &Part, at: &Poses, rank: &Rank) -> Vec<Drive> {
     if rank.free.n_columns() != 1 {

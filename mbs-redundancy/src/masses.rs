@@ -18,23 +18,25 @@ use mbs_linear::{Matrix, Svd};
 /// A motion without kinetic energy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Massless {
-    /// Bodies that take part in the motion.
+    /// Bodies that move in this motion.
     pub bodies: Vec<usize>,
-    /// Is the motion only the rotation of slender rods about their axes? Such a spin affects nothing else.
+    /// True if the motion is only the rotation of slender rods about their axes. Such a spin affects nothing else.
     pub is_idle_spin: bool,
 }
 
-/// Number of columns of the largest part that is decomposed, which limits the time. Chosen, not tuned.
+/// Largest number of columns of a part that is decomposed, which limits the computing time. Chosen, not tuned.
 const LARGEST: usize = 600;
 /// Largest entry of a unit vector that counts as zero [-]. Chosen, not tuned.
 const ZERO: f64 = 1e-6;
-/// Root of the largest energy that counts as zero, relative to the mean body's energy [-]; R contains roots of masses. Chosen, not tuned.
+/// Square root of the largest energy that counts as zero, relative to the mean body's energy [-]. The root is compared, because R contains
+/// square roots of masses. Chosen, not tuned.
 const LEAST: f64 = 1e-7;
 
-/// Returns the massless motions of a scene at a pose; `None` where a part is too large. Spins of rods come first, one motion for each rod.
+/// Returns the massless motions of a scene at a pose. Returns `None` if a part is too large. Spins of rods come first, one motion for each
+/// rod.
 ///
-/// Cost: two decompositions of the rows of all joints, if some body has a direction without inertia. Otherwise proportional to the number of
-/// bodies.
+/// Cost: two decompositions of the rows of all joints, if some body has a direction without inertia. Otherwise the cost is proportional to
+/// the number of bodies.
 #[must_use]
 pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec<Massless>> {
     let n = scene.bodies.len();
@@ -60,7 +62,7 @@ pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec
     Some(classified(scene, linkage, at, &motions))
 }
 
-/// Returns √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
+/// Returns √M, the square root of the inertia of a body, as a 6 x 6 matrix on (v, ω) in global axes.
 fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
     let (mass, _, inertia) = mass_properties(scene, body);
     let turned = at[body].rotation * inertia * at[body].rotation.transpose();
@@ -79,7 +81,7 @@ fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
     root
 }
 
-/// Returns the mean mass and mean inertia of the bodies that have any; one where no body has.
+/// Returns the mean mass and mean inertia of the bodies that have mass or inertia. A mean is one if no body has any.
 fn mean(scene: &Scene<f64>) -> [f64; 2] {
     let bodies: Vec<_> = (0..scene.bodies.len()).map(|b| mass_properties(scene, b)).collect();
     let mean = |values: Vec<f64>| {
@@ -92,7 +94,7 @@ fn mean(scene: &Scene<f64>) -> [f64; 2] {
     [mean(masses), mean(inertias)]
 }
 
-/// Returns the root of the energy of the free motions: one row for each direction of a body, one column for each motion.
+/// Returns the square root of the energy of the free motions: one row for each direction of a body, one column for each motion.
 fn energy(roots: &[Matrix], linkage: &Linkage, free: &Matrix, scale: [f64; 2]) -> Matrix {
     let f = linkage.freedoms();
     let place = |i: usize| if f == 6 { i } else { [0, 1, 5][i] };

@@ -1,8 +1,8 @@
-//! Parts of a mechanism that have no common loop: rows of different parts never depend on each other.
+//! Parts of a mechanism without a common loop. Rows of different parts never depend on each other.
 //!
-//! The graph has a node for each body and one for the ground, and an edge for each joint that has rows. Its biconnected components (Hopcroft
-//! and Tarjan 1973) are the parts. Joints that can carry internal forces with all bodies at rest form loops, and a loop lies within one
-//! component. A part with one joint is a bridge of the graph and never has dependent rows.
+//! The graph has a node for each body and one for the ground, and an edge for each joint that has rows. Its biconnected components
+//! (Hopcroft and Tarjan 1973) are the parts. Joints that can transmit internal forces while all bodies are at rest form loops. Every loop
+//! is within one component. A part with one joint is a bridge of the graph and never has dependent rows.
 
 use super::link::{Link, Poses, pose};
 use mbs_core::algebra::norm;
@@ -20,7 +20,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// Does the part contain a loop? If not, it is a single joint.
+    /// True if the part contains a loop. A part without a loop is a single joint.
     #[must_use]
     pub fn has_loop(&self) -> bool {
         self.joints.len() > 1
@@ -80,7 +80,7 @@ struct Search {
     /// Edges of each node, as pairs of neighbour and joint.
     edges: Vec<Vec<(usize, usize)>>,
     depth: Vec<usize>,
-    /// Least depth that the subtree of a node reaches by one back edge.
+    /// Smallest depth that one back edge reaches from the subtree of a node.
     low: Vec<usize>,
     stack: Vec<usize>,
     found: Vec<Vec<usize>>,

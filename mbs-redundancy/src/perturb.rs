@@ -1,8 +1,8 @@
 //! Test whether a dependency holds in every position or only in the present one.
 //!
-//! The part is displaced along a random admissible motion and then brought back onto its joints by the method of Levenberg and Marquardt.
-//! With a damping of |r| it converges quadratically even if rows are redundant (Yamashita and Fukushima 2001). A dependency is structural if
-//! it holds in all positions reached. If it does not, the present position is singular.
+//! The part is displaced along a random admissible motion. Then the method of Levenberg and Marquardt closes its joints again. With a
+//! damping of |r|, where r is the residual of the joints, the method converges quadratically even if rows are redundant (Yamashita and
+//! Fukushima 2001). A dependency is structural if it holds in all positions reached. If it does not, the present position is singular.
 
 use super::link::Poses;
 use super::linkage::Linkage;
@@ -13,17 +13,17 @@ use mbs_core::rigid::RigidMotion;
 use mbs_linear::{Matrix, Svd};
 
 mbs_core::named! {
-    /// Nature of a dependency: the positions in which it holds.
+    /// Positions in which a dependency holds.
     pub enum Nature {
-        /// In every position close by: the dependency follows from the design of the mechanism.
+        /// In every nearby position: the dependency follows from the design of the mechanism.
         Structural = "structural",
         /// In this position alone, which is singular.
         Singular = "singular-position",
-        /// A part of the dependency in every position, and more in this one.
+        /// Partly in every position: in the present position there are more dependent equations.
         Both = "both",
-        /// Nature that cannot be found, because nothing can move.
+        /// Not determinable, because no body can move.
         Rigid = "rigid",
-        /// Nature that was not examined: the part is too large, or no position close by was found.
+        /// Not examined, because the part is too large or no position close by was found.
         Untried = "untried",
     }
 }
@@ -32,19 +32,20 @@ mbs_core::named! {
 const PERTURBATIONS: u64 = 3;
 /// Size of a perturbation, in radians and in lengths of the part [-]. After a failure half of it is tried. Chosen, not tuned.
 const PERTURBATION: f64 = 0.1;
-/// Least distance of a perturbed pose from the present one, relative to the perturbation [-]. Closer poses count as the same. Chosen, not
-/// tuned.
+/// Smallest distance of a perturbed pose from the present one, relative to the perturbation [-]. Closer poses count as the same. Chosen,
+/// not tuned.
 const LEAST_DISTANCE: f64 = 1e-2;
-/// Sweeps back onto the joints at most [-]. Chosen, not tuned.
+/// Largest number of sweeps that close the joints again [-]. Chosen, not tuned.
 const MAX_SWEEPS: usize = 60;
 /// Residual below which the joints are satisfied, relative to the part's length [-]. Chosen, not tuned.
 const MET: f64 = 1e-13;
-/// Residual that is accepted when it no longer falls, relative to the part's length [-]. Chosen, not tuned.
+/// Residual that is accepted if it no longer falls, relative to the part's length [-]. Chosen, not tuned.
 const ACCEPTED: f64 = 1e-11;
-/// Number of entries of the largest matrix that is decomposed here, which limits the time. Chosen, not tuned.
+/// Largest number of entries of a matrix that is decomposed here, which limits the computing time. Chosen, not tuned.
 const LARGEST: usize = 100_000;
 
-/// Returns positions close to `at` that satisfy the joints of a part; `None` where the part is too large, empty where none is found.
+/// Returns positions close to `at` that satisfy the joints of a part. Returns `None` if the part is too large, and an empty list if none is
+/// found.
 pub(crate) fn neighbours(
     linkage: &Linkage,
     part: &Part,
@@ -76,7 +77,7 @@ pub(crate) fn neighbours(
     Some(found)
 }
 
-/// Moves poses onto the joints of a part. Returns whether the joints are satisfied.
+/// Moves poses until they satisfy the joints of a part. Returns whether that succeeded.
 fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>]) -> bool {
     let measure = |at: &Poses| -> Vec<f64> {
         let links = part.joints.iter().map(|&j| &linkage.links[j]);
@@ -111,7 +112,7 @@ fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>
     false
 }
 
-/// Returns the largest displacement of a centre, or rotation times the part's length [m].
+/// Returns the largest displacement of a body between two poses [m]: that of its centre, or its rotation times the part's length.
 fn distance(part: &Part, from: &Poses, to: &Poses) -> f64 {
     let of = |&b: &usize| {
         let way = (to[b].position - from[b].position).norm();

@@ -9,8 +9,8 @@ use mbs_linear::{Matrix, Svd};
 
 /// Ratio of neighbouring singular values below which a rank is uncertain [-]. Chosen, not tuned.
 pub const UNCERTAIN: f64 = 1e3;
-/// Singular value up to which a row is suspected to be dependent, relative to the largest value [-]. Numbers of a file have six digits or
-/// more.
+/// Singular value, relative to the largest one, up to which a row is suspected to be dependent [-]. Numbers in a scene file usually have at
+/// least six digits.
 const ALMOST: f64 = 1e-6;
 
 /// Rank of a matrix, with its null spaces.
@@ -29,7 +29,7 @@ pub struct Rank {
 }
 
 impl Rank {
-    /// Computes the rank of a matrix. Returns `None` if its singular values do not converge, for instance where entries are not finite.
+    /// Computes the rank of a matrix. Returns `None` if its singular values do not converge, for example because an entry is not finite.
     ///
     /// Cost: about 20 m n min(m, n) operations.
     #[must_use]
@@ -52,7 +52,7 @@ impl Rank {
         self.sizes[0] - self.sizes[2]
     }
 
-    /// Returns the gap σ_r / σ_(r+1) [-]; where all rows are independent, σ_r over the threshold.
+    /// Returns the gap σ_r / σ_(r+1) [-]. If all rows are independent, it returns σ_r divided by the threshold.
     #[must_use]
     pub fn gap(&self) -> f64 {
         let [m, n, rank] = self.sizes;
@@ -73,7 +73,7 @@ impl Rank {
         }
     }
 
-    /// Returns the left singular vector of singular value number `i`: a combination of rows, of unit length.
+    /// Returns the left singular vector for the singular value with index `i`: a combination of rows, of unit length.
     ///
     /// # Panics
     /// If there is no such value.
@@ -82,7 +82,7 @@ impl Rank {
         self.left.column(i).to_vec()
     }
 
-    /// Returns the left null space with all suspected singular values counted as zero; `None` where none is suspected.
+    /// Returns the left null space if all suspected singular values count as zero. Returns `None` if no singular value is suspected.
     #[must_use]
     pub fn almost_null(&self) -> Option<Matrix> {
         let rank = self.sizes[2];

@@ -1,4 +1,4 @@
-//! Search for the fewest joints whose change makes all equations independent and leaves the motion as it is.
+//! Search for the smallest set of joints whose change makes all equations independent without any effect on the motion.
 //!
 //! ```text
 //! a joint of another kind transmits W' ⊂ W;   C: the directions of W that it gives up
@@ -6,9 +6,9 @@
 //! mended without new freedoms  ⇔  C N has independent rows (each takes a redundancy) and as many as columns
 //! ```
 //!
-//! Combinations of one, two and three joints are tried in the order of the scene. Where more are needed, joints are changed one after
-//! another, each time the one that removes most redundancies. The result is checked with the changed joints: the rank must be the same, and
-//! all rows must be independent.
+//! Combinations of one, two and three joints are tried in the order of the scene. If more joints are needed, they are changed one after
+//! another. Each time the change is chosen that removes most redundancies. The result is checked with the changed joints: the rank must be
+//! the same, and all rows must be independent.
 
 use super::Vector;
 use super::decompose::{Group, ZERO, dimension};
@@ -31,14 +31,14 @@ pub struct JointChange {
     pub axis: Option<[f64; 3]>,
 }
 
-/// Changes that make all equations of a set independent and leave the motion as it is.
+/// Changes that make all equations of a set independent without any effect on the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remedy {
-    /// Changes of joints, one for each joint.
+    /// Changes of joints, at most one for each joint.
     pub changes: Vec<JointChange>,
-    /// A body to remove, together with the joints above.
+    /// A body to remove, together with the joints in `changes`.
     pub body: Option<usize>,
-    /// Is it certain that no smaller number of joints suffices?
+    /// True if it is certain that no smaller number of joints suffices.
     pub is_smallest: bool,
 }
 
@@ -50,7 +50,7 @@ struct Choice {
     taken: Vec<Vec<f64>>,
 }
 
-/// Number of combinations of joints that are tried at most, which limits the time. Chosen, not tuned.
+/// Largest number of combinations of joints that are tried, which limits the computing time. Chosen, not tuned.
 const MOST_TRIED: usize = 200_000;
 
 /// Searches for a remedy of a group of dependent joints at a position.
@@ -79,7 +79,7 @@ pub(crate) fn remedy(
         .or_else(|| verified(greedy(&options, k)?, false))
 }
 
-/// Returns a body that can be removed with all its joints, such as the third crank of a parallelogram.
+/// Returns a body that can be removed with all its joints, for example the third crank of a parallelogram.
 fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group) -> Option<Remedy> {
     let links: Vec<(usize, &Link)> =
         group.places.iter().map(|&i| (part.joints[i], &linkage.links[part.joints[i]])).collect();
@@ -125,8 +125,8 @@ fn index(body: BodyId) -> Option<usize> {
     if let BodyId::Body(b) = body { Some(b) } else { None }
 }
 
-/// Returns the joint kinds with more freedom that may replace a joint, those with the fewest freedoms first. They allow its motions and more,
-/// about the same axes. A second axis of rotation is found later, where the new kind needs one.
+/// Returns the joint kinds that may replace a joint, in ascending order of their freedoms. They allow the joint's motions and more, about
+/// the same axes. If a new kind needs a second axis of rotation, the axis is found later.
 fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
     let own = joint.kind.freedoms(dimension);
     let fits = |kind: &JointKind| {
@@ -154,7 +154,7 @@ fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
     kinds
 }
 
-/// Does the joint kind rotate about a second axis?
+/// True if the joint kind rotates about a second axis.
 fn takes_second_axis(kind: JointKind, dimension: Dimension) -> bool {
     kind.freedoms(dimension).contains(&Freedom::Turn(Axis::Second))
 }
@@ -181,7 +181,7 @@ fn options_of(
         if axis.is_some() {
             joint.axes[1] = axis;
         }
-        // A guided joint is not changed, because its guide needs the coordinates.
+        // A guided joint is not changed, because its guide needs the joint's coordinates.
         if link.is_guided {
             continue;
         }
@@ -194,7 +194,7 @@ fn options_of(
             (0..null.n_columns()).map(entry).collect::<Vec<f64>>()
         });
         let taken: Vec<_> = rows.collect();
-        // If a direction that the new joint gives up is determined, its loss would add a freedom.
+        // If the new joint no longer transmits a direction whose reaction is determined, the mechanism gains a freedom.
         if !taken.is_empty() && independent(&taken) {
             options.push(Choice {
                 change: JointChange { joint: index, kind, axis },
@@ -207,7 +207,7 @@ fn options_of(
     options
 }
 
-/// Returns the direction in which the joint's reaction moment is most undetermined, in the reference configuration.
+/// Returns the direction in which the joint's reaction moment is least determined, in the reference configuration.
 fn open_moment(
     link: &Link,
     at: &Poses,
@@ -321,7 +321,7 @@ fn greedy(options: &[Choice], k: usize) -> Option<Vec<usize>> {
     Some(chosen)
 }
 
-/// Checks the changes by the rank over the joints of the group: it must stay the same, and all rows must be independent.
+/// Checks the changes by the rank over the joints of the group: the rank must be the same, and all rows must be independent.
 fn holds(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group, found: &[&Choice]) -> bool {
     let rank = |changed: bool| {
         let link = |&place: &usize| {

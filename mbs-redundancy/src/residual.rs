@@ -30,7 +30,8 @@ pub(crate) fn residuals(
             let is_distance = link.joint.kind.is_link();
             return match (is_guide, is_distance, i) {
                 (false, true, 0) => norm(&now) - norm(&then),
-                // The slide of a guide keeps its value, and so does that of a hinged link along its hinge.
+                // The displacement of a guided slide must equal its value at `met`. So must the displacement of a link with a hinge, along
+                // the hinge.
                 (true, ..) | (false, true, _) => {
                     let number = i.saturating_sub(guide);
                     w.force.dot(&now) - along(link, (dimension, number), met, &then)

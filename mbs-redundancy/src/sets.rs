@@ -15,15 +15,16 @@ use mbs_linear::Matrix;
 pub struct Member {
     /// Index of the joint.
     pub joint: usize,
-    /// Numbers of directions of the reaction that nothing determines: of forces, of moments about the joint's point, and of both together.
+    /// Numbers of undetermined directions of the joint's reaction: of forces, of moments about the joint's point, and of both together.
     pub open: [usize; 3],
-    /// Whether each component of the joint's reaction is determined, in global axes: [Fx, Fy, Mz] in a plane, else all six.
+    /// For each component of the joint's reaction in global axes, whether it is determined: [Fx, Fy, Mz] in a plane, otherwise all six.
     pub is_unique: Vec<bool>,
-    /// Is its guide among the dependent equations?
+    /// True if the joint's guide is among the dependent equations.
     pub guide: bool,
 }
 
-/// Minimal set of joints whose equations depend on each other: without any of them the others would not.
+/// Minimal set of joints whose equations depend on each other. If any joint of the set is removed, the equations of the others are
+/// independent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Set {
     /// Joints of the set, in the order of the scene.
@@ -32,11 +33,12 @@ pub struct Set {
     pub redundant: usize,
     /// Positions in which the dependency holds: all, or only this one.
     pub nature: Nature,
-    /// Do the equations depend on each other to machine precision? If not, they nearly do, possibly because of rounded numbers in the scene.
+    /// True if the equations depend on each other to machine precision. Otherwise they nearly depend, for example because of rounded
+    /// numbers in the scene.
     pub is_exact: bool,
-    /// The largest singular value that counts as zero, relative to the largest one [-].
+    /// Largest singular value that counts as zero, relative to the largest of all [-].
     pub sigma: f64,
-    /// Changes that would remove the dependency, where some were found.
+    /// Changes that would remove the dependency; `None` if the search found none.
     pub remedy: Option<Remedy>,
 }
 
@@ -55,12 +57,12 @@ pub struct Diagnosis {
     pub too_large: Vec<usize>,
 }
 
-/// Number of entries of the largest matrix whose singular values are computed, which takes some ten seconds.
+/// Largest number of entries of a matrix whose singular values are computed. For this size the computation takes some ten seconds.
 const LARGEST: usize = 4_000_000;
 
 /// Diagnoses the dependent sets of a mechanism at a position that satisfies its joints.
 ///
-/// Cost: about 20 m n² operations for a part of m equations and n freedoms, ten times as many where it has dependent sets.
+/// Cost: about 20 m n² operations for a part of m equations and n freedoms, and ten times as many if it has dependent sets.
 #[must_use]
 pub fn diagnose(linkage: &Linkage, at: &Poses) -> Diagnosis {
     let [rows, freedoms] = linkage.sizes();
@@ -162,7 +164,7 @@ impl Found<'_> {
         }
     }
 
-    /// Returns a joint with the undetermined part of its reaction, which is the span of its wrenches in the null space.
+    /// Returns a joint with the undetermined part of its reaction. This part is the span of the joint's wrenches in the null space.
     fn member(&self, place: usize, null: &Matrix) -> Member {
         let Jacobian { rows, wrenches, .. } = &self.jacobian;
         let joint = self.part.joints[place];

@@ -11,7 +11,7 @@ use mbs_study::redundancy::UNCERTAIN;
 /// Displacement or rotation up to which a value counts as rounding error [m or rad]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-12;
 
-/// Letters of a line of findings in the terminal [-].
+/// Largest number of letters in a line of findings in the terminal [-].
 const WIDTH: usize = 110;
 
 /// Returns the page of a checkup, with a picture of the scene's start if there is one, and its text for a terminal.
@@ -35,7 +35,7 @@ pub fn report(
     (report, text)
 }
 
-/// Returns the picture with the names of only those joints that findings name.
+/// Returns the picture with joint names. Only joints that occur in findings have names.
 fn with_named(mut motion: RecordedMotion, c: &Checkup) -> RecordedMotion {
     let found: Vec<&str> =
         c.findings.iter().flat_map(|f| &f.joints).map(|&j| c.joints[j].as_str()).collect();
@@ -176,7 +176,7 @@ fn reactions(c: &Checkup) -> Section {
     Section { caption, ..Section::new("Reactions", &[], rows) }
 }
 
-/// Describes how many forces and moments of a joint are undetermined, independent of the axes.
+/// Describes how many forces and moments of a joint are undetermined. The numbers do not depend on the axes.
 fn directions(c: &Checkup, joint: usize) -> String {
     let exact = c.joint_level.sets.iter().filter(|set| set.is_exact);
     let member = exact.flat_map(|set| &set.members).find(|m| m.joint == joint);
@@ -191,7 +191,7 @@ fn directions(c: &Checkup, joint: usize) -> String {
 }
 
 fn loops(c: &Checkup) -> Option<Section> {
-    /// Closed loops in the table at most [-]: one page.
+    /// Largest number of closed loops in the table [-]. They fill one page.
     const MAX_ROWS: usize = 40;
     let row = |lap: &mbs_study::redundancy::Loop| {
         let joints: Vec<&str> = lap.joints.iter().map(|&j| c.joints[j].as_str()).collect();
@@ -260,7 +260,7 @@ fn motion(c: &Checkup) -> Option<Section> {
     })
 }
 
-/// Returns the corners that changed their side; those that changed at the same time are in one row.
+/// Returns the corners that changed their side. Corners that changed at the same time are in one row.
 fn changes(c: &Checkup, corners: &[mbs_study::doctor::LinearMotion]) -> Vec<Vec<String>> {
     let mut changed: Vec<(f64, usize)> =
         corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();

@@ -173,7 +173,7 @@ fn whole(prices: &EffectCosts) -> Section {
     }
 }
 
-/// Returns the time that monitoring the invariant takes, and its fraction of a step.
+/// Returns a text with the time for monitoring the invariant, and the fraction of a step that it takes.
 fn monitor(prices: &EffectCosts) -> String {
     let Some(seconds) = prices.monitor_seconds_per_step else {
         return "not measured".to_owned();
@@ -271,7 +271,7 @@ fn largest_step(found: &LargestStep) -> String {
     }
 }
 
-/// Formats a percentage with two digits, or more before the decimal point.
+/// Formats a percentage with two significant digits. A percentage of 100 or more is rounded to a whole number.
 fn percent(x: f64) -> String {
     let p = 100.0 * x;
     match p.abs() {
@@ -282,7 +282,7 @@ fn percent(x: f64) -> String {
 }
 
 fn counted(names: &[String]) -> String {
-    /// Names of a list at most [-]: of a longer list only the number is shown.
+    /// Largest number of names in a list [-]. Of a longer list only the number of names is shown.
     const MAX_NAMES: usize = 12;
     match names.len() {
         0 => "none".to_owned(),

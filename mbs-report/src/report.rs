@@ -43,7 +43,7 @@ impl Report {
         out
     }
 
-    /// Returns the report as one HTML file without references to other files. Tables need no script; folded tables come last.
+    /// Returns the report as one HTML file without references to other files. Tables need no script. Folded tables are the last ones.
     #[must_use]
     pub fn page(&self) -> String {
         let error = self.error.as_ref().map(|error| PageSection::Error(format!("The run {error}")));

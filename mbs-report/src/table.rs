@@ -3,7 +3,8 @@
 use crate::text::escape;
 use core::fmt::Write;
 
-/// Number of letters of a cell above which the cells of a row are shown below each other on a narrow screen. Chosen, not tuned.
+/// Largest number of letters of a cell in a normal row. If a cell is longer, the cells of its row are shown below each other on a narrow
+/// screen. Chosen, not tuned.
 const MAX_CELL: usize = 60;
 
 /// Table with a title.
@@ -13,15 +14,15 @@ pub struct Section {
     pub title: String,
     /// Caption that explains the numbers in one or two sentences; may be empty.
     pub caption: String,
-    /// Names of the columns. If empty, the first column names the values of the others.
+    /// Names of the columns. If they are empty, the first column names the values in the others.
     pub head: Vec<String>,
     /// The cells, row by row.
     pub rows: Vec<Vec<String>>,
     /// Bars in a column: the index of the column, and a length from 0 to 1 for each row.
     pub bars: Option<(usize, Vec<f64>)>,
-    /// Is the table shown on the page only, and not in the terminal?
+    /// True if the table is shown on the page only, and not in the terminal.
     pub is_detail: bool,
-    /// Is the table folded under its title on the page?
+    /// True if the table is folded under its title on the page.
     pub is_folded: bool,
 }
 
@@ -43,7 +44,7 @@ impl Section {
         Self::new("How this was made", &[], rows.collect())
     }
 
-    /// Returns the table, marked to be folded on a page.
+    /// Returns the table with a mark that folds it on a page.
     pub(crate) fn folded(self) -> Self {
         Self { is_folded: true, ..self }
     }
@@ -97,7 +98,7 @@ impl Section {
         out.push_str("</section>\n");
     }
 
-    /// Returns the HTML of a cell, with the name of its column for screens where the name is shown beside it.
+    /// Returns the HTML of a cell. It includes the name of the column, which narrow screens show beside the cell.
     fn cell(&self, (row, column): (usize, usize), text: &str, label: Option<&String>) -> String {
         let text = escape(text);
         let label = label.map_or_else(String::new, |x| format!(" data-label=\"{}: \"", escape(x)));
@@ -112,7 +113,7 @@ impl Section {
     }
 }
 
-/// Breaks a text into lines of fewer characters than a width, where its words allow it.
+/// Breaks a text into lines of fewer than `width` characters. A single longer word is not broken.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -1,7 +1,7 @@
 //! Texts in HTML: templates with marks, and escaping of special characters.
 
-/// Replaces marks in a template by texts. The marks must occur in this order. There is one pass, so that a mark within an inserted text is
-/// not replaced.
+/// Replaces marks in a template by texts. The marks must occur in this order. The function makes one pass, so that a mark within an
+/// inserted text is not replaced.
 pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     let mut out = String::new();
     let mut rest = template;

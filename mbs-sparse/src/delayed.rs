@@ -4,9 +4,9 @@
 //! front = elements + updates of its children + unknowns that its children could not eliminate, which come first
 //! ```
 //!
-//! No other task writes the numbers of a task; they grow with the delayed pivots. Numbers of tasks below are read after these tasks have
-//! ended. An unknown is identified by its index in the storage of a vector. A delayed unknown keeps its index, which belongs to a task
-//! below. Every task to which the unknown can be delayed may access that part of the storage.
+//! Only a task itself writes its numbers. Their storage grows with the delayed pivots. A task reads the numbers of the tasks below it after
+//! these have ended. An unknown is identified by its index in the storage of a vector. A delayed unknown keeps its index, which belongs to
+//! a task below. Every task to which the unknown can be delayed may access that part of the storage.
 
 use crate::front::{Front, column};
 use crate::part;
@@ -27,7 +27,7 @@ pub(crate) struct Layout {
     task_of_front: Vec<u32>,
     /// The fronts from which each front receives updates, in the order of `plan.children`.
     children: Vec<u32>,
-    /// For each child, the rows of its parent for its remaining unknowns, and where each list starts.
+    /// For each child, the rows of its parent that correspond to the child's remaining unknowns, and the start of the child's list.
     maps: Vec<u32>,
     map_starts: Vec<usize>,
 }
@@ -60,12 +60,12 @@ impl Layout {
         Self { plan, unknown_at, block_starts, task_of_front, children, maps, map_starts }
     }
 
-    /// Allocates memory for the factored fronts of every task: as planned, and as much again for delayed pivots.
+    /// Allocates memory for the factored fronts of every task: the planned memory, and the same amount again for delayed pivots.
     pub(crate) fn shares<T: Real>(&self) -> Vec<Share<T>> {
         let block = self.plan.n_block;
         let share = |task: &Task| {
             let fronts = &self.plan.fronts[task.fronts.clone()];
-            // A delayed unknown adds an entry to every column of the front that receives it.
+            // A delayed unknown adds an entry to every column of the front to which it is added.
             let numbers = fronts.iter().map(|s| column(s.f, s.f) + 2 * s.f + 1).sum();
             let rows = fronts.iter().map(|s| s.f).sum::<usize>() + task.places.len();
             Share {
@@ -108,14 +108,14 @@ struct Stretch {
     n_pivots: usize,
 }
 
-/// Departures from the plan in the last factorisation, by delayed pivots.
+/// Deviations of the last factorisation from the plan, which delayed pivots cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Delays {
-    /// Unknowns that a front passed on to its parent, counted for every front.
+    /// Number of unknowns that a front could not eliminate and passed on to its parent, summed over all fronts.
     pub delayed: usize,
-    /// Delayed unknowns that one task passed on to another.
+    /// Number of delayed unknowns that one task passed on to another.
     pub between_tasks: usize,
-    /// Unknowns of the largest front.
+    /// Number of unknowns of the largest front.
     pub largest_front: usize,
     /// Numbers stored for all fronts together.
     pub stored: usize,
@@ -136,12 +136,13 @@ impl Delays {
 /// Factored fronts of one task.
 #[derive(Debug, Clone)]
 pub(crate) struct Share<T> {
-    /// Storage of each of its fronts.
+    /// Storage of each front of the task.
     stretches: Vec<Stretch>,
     numbers: Vec<T>,
-    /// Unknowns of its fronts in the order of their rows, as indices in the storage of a vector.
+    /// Unknowns of the task's fronts in the order of their rows, as indices in the storage of a vector.
     order: Vec<u32>,
-    /// Sum of absolute terms of each diagonal entry, in the order of `order`; for rows that a later front eliminates, the part from here.
+    /// Sum of absolute terms of each diagonal entry, in the order of `order`. For rows that a later front eliminates, only the terms of
+    /// this front and its children are summed.
     size: Vec<T>,
     /// Whether a pivot is the first of a 2x2 pivot, in the order of `order`.
     pairs: Vec<bool>,
@@ -151,7 +152,7 @@ pub(crate) struct Share<T> {
     pub(crate) delays: Delays,
 }
 
-/// Factored fronts of neighbouring tasks with all tasks below.
+/// Factored fronts of neighbouring tasks and of all tasks below them.
 pub(crate) struct Shares<'a, T>(pub(crate) &'a mut [Share<T>]);
 
 impl<T: Send> Owned for Shares<'_, T> {
@@ -169,7 +170,7 @@ pub(crate) struct Job<'a, T, W> {
     pub(crate) thresholds: &'a Thresholds<T>,
     /// Blocks of all elements.
     pub(crate) blocks: &'a [T],
-    /// Scale S, and the largest entry of each row of S T S, by unknown.
+    /// Scale S, and the largest entry of each row of S T S for the matrix T; one number for each unknown.
     pub(crate) scale: &'a [T],
     pub(crate) rows: &'a [T],
 }
@@ -224,7 +225,8 @@ struct Done<'a, T> {
 }
 
 impl<T: Real> Share<T> {
-    /// Assembles and eliminates front `s`. `used` are the used lengths of numbers and of names; returns both with this front added.
+    /// Assembles and eliminates front `s`. `used` are the used lengths of the arrays of numbers and of unknowns. Returns both lengths with
+    /// this front added.
     fn eliminate<W: Team>(
         &mut self,
         job: &Job<'_, T, W>,
@@ -269,7 +271,8 @@ impl<T: Real> Share<T> {
         end
     }
 
-    /// Assembles elements and children into the front of `f` unknowns at `used`, of which `delayed` are not planned, and sets its rows.
+    /// Assembles elements and children into the front of `f` unknowns at `used`, and sets its rows. `delayed` of the unknowns are not
+    /// planned.
     fn assemble<W: Team>(
         &mut self,
         job: &Job<'_, T, W>,
@@ -323,7 +326,7 @@ impl<T: Real> Share<T> {
         }
     }
 
-    /// Reserves memory for so many numbers and names. Allocates only if more is required than ever before.
+    /// Reserves memory for these lengths of the arrays of numbers and of unknowns. Allocates only if a length is larger than ever before.
     fn reserve(&mut self, (numbers, names): (usize, usize)) {
         if self.numbers.len() < numbers {
             self.numbers.resize(numbers, T::ZERO);
@@ -346,8 +349,8 @@ impl Layout {
 }
 
 impl<T: Real> Done<'_, T> {
-    /// Adds the update of child `c` of the plan, the front `local` of its task, into the front (a, order, size) above. Its delayed unknowns
-    /// come to the rows from `place` on, among the `delayed` ones. Returns the row after them.
+    /// Adds the update of child `c` of the plan into the front (a, order, size) above. The child is the front `local` of its task. Its
+    /// delayed unknowns become rows of the front above from row `place` on; that front has `delayed` such rows. Returns the row after them.
     fn add(
         &self,
         layout: &Layout,
@@ -387,7 +390,7 @@ impl<T: Real> Done<'_, T> {
 pub(crate) struct Factor<'a, T> {
     pub(crate) layout: &'a Layout,
     pub(crate) shares: &'a [Share<T>],
-    /// Does the backward sweep divide by D?
+    /// True if the backward sweep divides by D.
     pub(crate) is_divided: bool,
 }
 

@@ -1,15 +1,16 @@
-//! Nested dissection of the graph of nodes, for the upper levels: separated halves may be eliminated at the same time.
+//! Nested dissection of the graph of nodes, for the upper levels of the tree. Threads can eliminate separated halves at the same time.
 //!
 //! ```text
 //! part = left + separator + right,   no edge between left and right      order: left, right, separator
 //! ```
 //!
-//! Halves result from the levels of a breadth-first search that starts at a peripheral node (George 1973). Parts of the last level are
-//! ordered by minimum degree. On a chain, one cut adds no work. Every further cut replaces fronts of two links by fronts of three.
+//! Halves result from the levels of a breadth-first search that starts at a peripheral node (George 1973). The parts after the last
+//! division are ordered by minimum degree. On a chain, the first cut adds no work. Every further cut replaces fronts of two links by fronts
+//! of three.
 
 use crate::graph::{Lists, index, minimum_degree, neighbours};
 
-/// Least weight of a half relative to its part [-], where such a cut exists. Chosen, not tuned.
+/// Smallest weight of a half relative to its part, if a cut with such halves exists [-]. Chosen, not tuned.
 const LEAST_HALF: f64 = 0.3;
 
 /// Returns the position of each node after `depth` levels of dissection.
@@ -40,7 +41,7 @@ const UNSEEN: u32 = u32::MAX;
 struct Cutter<'a> {
     neighbours: Lists,
     weight: &'a [usize],
-    /// Level of each node in the last search of its part.
+    /// Level of each node in the last search of its part. The level is the distance from the start of the search.
     level: Vec<u32>,
     /// Index of the part that each node belongs to.
     part: Vec<u32>,
@@ -77,7 +78,7 @@ impl Cutter<'_> {
     /// Divides a part into two halves and a separator; `None` if the part is too small or too dense.
     fn halves(&mut self, part: &[u32]) -> Option<[Vec<u32>; 3]> {
         let (&first, id) = (part.first()?, self.part[*part.first()? as usize]);
-        // The last node of a search is peripheral; two searches are enough.
+        // The last node that a search reaches is peripheral. Two searches are enough.
         let mut from = first;
         for _ in 0..2 {
             self.forget(part);
@@ -85,7 +86,7 @@ impl Cutter<'_> {
         }
         self.forget(part);
         let mut seen = self.search(from, id, 0);
-        // Unconnected components follow level by level; cuts between them need no separator.
+        // Each unconnected component has levels of its own, after those of the component before. Cuts between components need no separator.
         for &v in part {
             if self.level[v as usize] == UNSEEN {
                 let next = self.level[*seen.last()? as usize] + 2;
@@ -134,7 +135,8 @@ impl Cutter<'_> {
         seen
     }
 
-    /// Returns the level of least weight with enough on both sides; among equal ones that closest to the middle.
+    /// Returns the level of least weight that leaves enough weight on both sides. Among equal levels it returns the one closest to the
+    /// middle.
     fn best_level(&self, seen: &[u32]) -> Option<u32> {
         let mut by_level = vec![0_usize; self.level[*seen.last()? as usize] as usize + 1];
         for &v in seen {
@@ -162,7 +164,7 @@ impl Cutter<'_> {
 /// tuned.
 const LATER: u32 = 8;
 
-/// Orders each leaf of the order by minimum degree; nodes with neighbours in a later leaf come late.
+/// Orders each leaf (a part that is not divided further) by minimum degree. Nodes with neighbours in a later leaf are placed late.
 fn order_leaves(elements: &Lists, order: &mut [u32], leaves: &[(usize, usize)]) {
     let n = order.len();
     let mut leaf = vec![0; n];
@@ -172,7 +174,7 @@ fn order_leaves(elements: &Lists, order: &mut [u32], leaves: &[(usize, usize)]) 
             (leaf[v as usize], number[v as usize]) = (l, index(k));
         }
     }
-    // The elements of each leaf, with its nodes only, and with representatives of later leaves.
+    // The elements of each leaf contain only the nodes of the leaf and nodes that represent all later leaves.
     let mut lists: Vec<Lists> = leaves.iter().map(|_| Lists::with_capacity(0)).collect();
     for e in 0..elements.len() {
         let mut owners: Vec<usize> = elements.get(e).iter().map(|&v| leaf[v as usize]).collect();

@@ -31,10 +31,10 @@ pub(crate) struct Front {
     pub(crate) rows: Range<usize>,
     /// Initial content of the front.
     pub(crate) init: FrontInit,
-    /// Index of the first pivot in the vector of its task.
+    /// Index of the first pivot in the storage of a vector for its task.
     pub(crate) at: usize,
-    /// Range of its elements in the list of all elements.
+    /// Range of the front's elements in the list of all elements.
     pub(crate) elements: Range<usize>,
-    /// Range of its children in the list of all children.
+    /// Range of the front's children in the list of all children.
     pub(crate) children: Range<usize>,
 }

@@ -88,12 +88,12 @@ pub(crate) fn checked_cliques(cliques: &impl Cliques) -> Lists {
     lists
 }
 
-/// Returns the node of each unknown and the number of nodes, which are numbered by their first unknown. Unknowns from `n_primal` on are never
-/// in one node with those before.
+/// Returns the node of each unknown, and the number of nodes. The order of the nodes is that of their first unknowns. Unknowns from
+/// `n_primal` on are never in one node with unknowns before `n_primal`.
 pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, usize) {
     let mut class = vec![0_u32; n];
     let mut n_classes = 1;
-    // `split_into[c]` is the class to which the last clique with members of class c, `split_by[c]`, moved them.
+    // `split_by[c]` is the last clique with members of class c, and `split_into[c]` is the class to which it moved them.
     let mut split_into = vec![0_u32];
     let mut split_by = vec![usize::MAX];
     let multipliers: Vec<u32> = (n_primal..n).map(index).collect();
@@ -111,7 +111,7 @@ pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, us
             class[u as usize] = split_into[c];
         }
     }
-    // Unknowns of no element are in class 0 and are not neighbours, so each becomes a node.
+    // Unknowns without an element are in class 0. They are not neighbours, so each becomes a node.
     let mut node_of_class = vec![u32::MAX; n_classes];
     let mut n_nodes = 0;
     for c in &mut class {
@@ -142,7 +142,7 @@ pub(crate) fn elements_by_node(cliques: &Lists, node: &[u32], n_nodes: usize) ->
     lists
 }
 
-/// Returns the position of each node in an elimination order of small fill.
+/// Returns the position of each node in an elimination order that gives few entries of L.
 pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
     ordered_by_amd(&neighbours(elements, n_nodes), n_nodes)
 }
@@ -169,9 +169,9 @@ pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     neighbours
 }
 
-/// Returns the position of each node, with nodes of multipliers right after the last other node with which they share an element. `order`
-/// places the other nodes, from their elements and weights. The coordinates of a multiplier's row are then eliminated before it, so that its
-/// pivot is not zero for lack of a coordinate.
+/// Returns the position of each node. A node of multipliers is placed right after the last other node with which it shares an element.
+/// `order` places the other nodes, given their elements and weights. So the coordinates of a multiplier's row are eliminated before the
+/// multiplier, and its pivot then has their terms.
 pub(crate) fn multipliers_after(
     elements: &Lists,
     (weight, is_multiplier): (&[usize], &[bool]),
@@ -215,8 +215,7 @@ pub(crate) fn multipliers_after(
 
 /// Returns the position of each node by approximate minimum degree.
 ///
-/// # Panics
-/// Never: the lists name nodes `< n_nodes`, each list is ascending, and the diagonal is in the pattern, which `amd` counts on in debug
+/// Never: the lists name nodes `< n_nodes`, each list is ascending, and the pattern includes the diagonal. `amd` requires the last in debug
 /// builds.
 fn ordered_by_amd(neighbours: &Lists, n_nodes: usize) -> Vec<u32> {
     let mut start = vec![0];

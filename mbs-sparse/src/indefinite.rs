@@ -8,10 +8,10 @@
 //!
 //! The method is that of Duff and Reid (ACM TOMS 9, 1983). Delayed unknowns come before the planned ones of a front, so that the index maps
 //! of the analysis remain valid for the planned part. A factorisation without delays uses only these maps. A root accepts every pivot above
-//! rounding errors. If an unknown remains, the matrix is singular, and the error names the unknown.
+//! rounding errors. If the root cannot eliminate an unknown, the matrix is singular, and the error names the unknown.
 //!
-//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal). Delayed pivots of a task come to the task above in
-//! the order of the plan. Therefore pivots and bits of the result are the same for every team.
+//! Subtrees are tasks for a [`Team`], as those of [`Multifrontal`](crate::Multifrontal). Delayed pivots of a task are added to the task
+//! above in the order of the plan. Therefore pivots and bits of the result are the same for every team.
 //!
 //! Multipliers ([`Cliques::n_primal`]) are placed right after the last coordinate of their elements. If the coordinates have mass, a pivot is
 //! then delayed only where a threshold test fails for the numbers at hand.
@@ -30,8 +30,8 @@ use std::convert::Infallible;
 
 /// Multifrontal L D L^T with pivoting: analysed once, factored many times, by one thread or by a team.
 ///
-/// The analysis reserves memory for the planned fronts, and as much again for delayed pivots. A factorisation with more delays than any
-/// before enlarges the memory. The next one with as many delays allocates nothing.
+/// The analysis reserves memory for the planned fronts, and the same amount again for delayed pivots. A factorisation with more delays than
+/// all earlier ones enlarges the memory. The next factorisation with as many delays allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Indefinite<T: Real, W: Team = Alone> {
     layout: Layout,
@@ -39,7 +39,7 @@ pub struct Indefinite<T: Real, W: Team = Alone> {
     thresholds: Thresholds<T>,
     /// Blocks of all elements in the last factorisation.
     blocks: Vec<T>,
-    /// Scale S, and the largest entry of each row of S T S, by unknown.
+    /// Scale S, and the largest entry of each row of S T S for the matrix T; one number for each unknown.
     scale: Vec<T>,
     rows: Vec<T>,
     diagonal: Vec<T>,
@@ -104,12 +104,12 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         self.layout.plan.counters
     }
 
-    /// Number of subtrees that can be worked on at the same time; more threads have no work. `≥ 1` where there are unknowns.
+    /// Number of subtrees that threads can factor at the same time. More threads than this have no work. `≥ 1` if there are unknowns.
     pub fn n_branches(&self) -> usize {
         self.layout.plan.tasks.n_leaves()
     }
 
-    /// Departures from the plan in the last factorisation, by delayed pivots.
+    /// Deviations of the last factorisation from the plan, which delayed pivots cause.
     pub fn delays(&self) -> Delays {
         self.delays
     }

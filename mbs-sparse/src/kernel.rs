@@ -13,10 +13,11 @@ use crate::front::column;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract_products;
 
-/// Pivots that are eliminated together, at most [-]: each column is then read and written once for all of them. Chosen, not tuned.
+/// Largest number of pivots that are eliminated together [-]. Each later column is then read and written once for all of them. Chosen, not
+/// tuned.
 pub(crate) const BLOCK: usize = 6;
 
-/// A pivot that is not positive: its column in the front and its value.
+/// A pivot that is not positive: the column of the front, and the pivot's value.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BadPivot<T> {
     pub(crate) column: usize,
@@ -54,8 +55,8 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// Eliminates the first `P` unknowns of a packed front. For the most frequent numbers of further rows, from bodies with two or three
-/// coordinates per point, all sizes are known to the compiler.
+/// Eliminates the first `P` unknowns of a packed front. The compiler knows all sizes for the most frequent numbers of further rows, which
+/// come from bodies with two or three coordinates per point.
 #[inline(always)]
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
     match f - P {

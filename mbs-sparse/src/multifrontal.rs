@@ -25,9 +25,9 @@ pub struct Multifrontal<T: Real, W: Team = Alone> {
     pivots: Vec<T>,
     /// Unknowns in the elimination order of the last factorisation.
     order: Vec<u32>,
-    /// Is there one front only, in the given order and without pivoting?
+    /// True if there is only one front, in the given order and without pivoting.
     is_one_block: bool,
-    /// For each pivot the row of its front from which [`Pivoting::Diagonal`] took it.
+    /// For each pivot, the row of its front from which [`Pivoting::Diagonal`] moved it.
     taken: Vec<u32>,
     residuals: Scatter<T>,
 }
@@ -79,12 +79,12 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
         self.plan.counters
     }
 
-    /// Number of subtrees that can be worked on at the same time; more threads have no work. `≥ 1` where there are unknowns.
+    /// Number of subtrees that threads can factor at the same time. More threads than this have no work. `≥ 1` if there are unknowns.
     pub fn n_branches(&self) -> usize {
         self.plan.tasks.n_leaves()
     }
 
-    /// Makes both sweeps with the right-hand side `x`; the solution is left in `storage`, in the order of the tasks.
+    /// Makes both sweeps with the right-hand side `x`. Writes the solution to `storage`, in the order of the tasks.
     fn sweep(&self, x: &[T], storage: &mut [T]) {
         let fronts = Factor { plan: &self.plan, fronts: &self.fronts, taken: &self.taken };
         let vectors = Vectors { plan: &self.plan, team: &self.team, fronts };

@@ -8,32 +8,33 @@
 /// Choice of pivots among the unknowns that a front may eliminate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pivoting {
-    /// In the order of the analysis. This is the fastest choice, and sufficient for positive definite matrices.
+    /// Pivots in the order of the analysis. This is the fastest choice, and sufficient for positive definite matrices.
     #[default]
     None,
-    /// The largest remaining diagonal of the front first. This reduces the growth of rounding errors in badly scaled matrices.
+    /// Pivots by size: the largest remaining diagonal entry of the front first. This reduces the growth of rounding errors in badly scaled
+    /// matrices.
     Diagonal,
 }
 
 /// Order in which unknowns are eliminated. It changes results by rounding errors only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ordering {
-    /// Minimum degree; if that order gives threads little work, a dissection that costs at most a tenth more.
+    /// Minimum degree by default. If that order gives threads little work, a dissection replaces it that costs at most a tenth more.
     #[default]
     Chosen,
     /// Order of approximate minimum degree: the least work for one thread.
     MinimumDegree,
-    /// Dissection with this many levels, and minimum degree within the parts. Gives threads the most work; costs up to 2.5 times as much on
-    /// chains.
+    /// Dissection with this many levels, and minimum degree within the parts. This order gives threads the most work. On chains it costs up
+    /// to 2.5 times as much.
     Dissection(u32),
 }
 
-/// Options that the caller chooses. Public fields; start from `Options::default()`.
+/// Options that the caller chooses. Start from `Options::default()` and change the public fields as needed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// Choice of pivots inside each front.
     pub pivoting: Pivoting,
-    /// Number of unknowns up to which a system is one dense front in the given order.
+    /// Largest number of unknowns of a system that is factored as one dense front in the given order.
     pub dense_up_to: usize,
     /// Order in which unknowns are eliminated.
     pub ordering: Ordering,
@@ -61,19 +62,20 @@ pub struct Counters {
     pub n_elements: usize,
     /// Number of fronts: dense matrices that are factored one after another.
     pub n_fronts: usize,
-    /// Unknowns of the largest front.
+    /// Number of unknowns of the largest front.
     pub largest_front: usize,
-    /// Entries of L, including the diagonal, and the zeros from merged fronts.
+    /// Number of entries of L, including the diagonal and the zeros that merged fronts add.
     pub nonzeros: usize,
-    /// Numbers stored for all fronts: factors and updates.
+    /// Number of values stored for all fronts: factors and updates.
     pub stored: usize,
-    /// Additions, multiplications and divisions of one factorisation, without the assembly.
+    /// Number of additions, multiplications and divisions of one factorisation, without the assembly.
     pub flops: u64,
-    /// Additions of updates into parent fronts.
+    /// Number of additions that add updates to parent fronts.
     pub extend_adds: u64,
     /// Number of tasks into which the tree of fronts is divided.
     pub n_tasks: usize,
-    /// Ratio of the time of all fronts to that of the longest path from a leaf to a root, estimated [-]. No team is faster by more.
+    /// Upper bound for the speed-up by a team [-]: the estimated time of all fronts, divided by that of the longest path from a leaf to a
+    /// root.
     pub parallelism: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Parts of a front (elements and updates of children): the position of each in the front, and its addition.
 //!
-//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point. For these the lengths of all loops are
-//! constants. The loops are short, so that the overhead of variable lengths would dominate.
+//! Most parts have one of a few sizes, multiples of the two or three coordinates of a point. For these sizes the lengths of all loops are
+//! constants. The loops are so short that the overhead of variable lengths would dominate.
 
 use crate::front::column;
 use crate::graph::index;
@@ -30,13 +30,13 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// Returns the number of entries of its packed triangle.
+    /// Returns the number of entries of the part's packed triangle.
     #[inline(always)]
     pub(crate) fn len(&self) -> usize {
         triangle(self.size as usize)
     }
 
-    /// Returns the targets of a scattered part, followed by those of later parts; empty for any other part.
+    /// Returns the targets of a scattered part, followed by those of later parts. Returns an empty slice for any other part.
     #[inline(always)]
     pub(crate) fn targets<'a>(&self, all: &'a [u32]) -> &'a [u32] {
         match self.place {
@@ -52,10 +52,11 @@ pub(crate) fn triangle(size: usize) -> usize {
     size * (size + 1) / 2
 }
 
-/// Unknowns of the largest part that is added entry by entry [-]: a test of its structure would cost as much. Chosen, not tuned.
+/// Largest number of unknowns of a part that is added entry by entry [-]. A test of the structure of such a part would cost as much as the
+/// addition. Chosen, not tuned.
 pub(crate) const SMALL: usize = 4;
 
-/// Finds the cheapest description of the map `map` into a front of `f` unknowns.
+/// Finds the cheapest description of the index map `map` into a front of `f` unknowns.
 pub(crate) fn place_of(map: &[u32], f: usize, targets: &mut Vec<u32>) -> Place {
     let first = map[0] as usize;
     let is_small = map.len() <= SMALL && map.len() < f;
@@ -95,7 +96,7 @@ pub(crate) fn add<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], 
     }
 }
 
-/// Adds a part of `K` unknowns at rows `first`, ...; for `K` = 0 the size is `k`, known at run time only.
+/// Adds a part of `K` unknowns at rows `first`, `first + 1`, ...; for `K` = 0 the size is `k`, known at run time only.
 #[inline(never)]
 fn add_shifted<T: Real, const K: usize>(
     a: &mut [T],

@@ -10,8 +10,8 @@ use crate::kernel::{BadPivot, checked_inverse};
 use mbs_math::Real;
 use mbs_math::dense::front::swap;
 
-/// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns. `taken[k]` receives the row that became pivot `k`; after
-/// a failure also the row of the failed pivot.
+/// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns. `taken[k]` receives the row that became pivot `k`.
+/// After a failure, it also has the row of the failed pivot.
 pub(crate) fn eliminate_largest<T: Real>(
     a: &mut [T],
     d: &mut [T],

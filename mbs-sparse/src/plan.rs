@@ -31,11 +31,11 @@ pub(crate) struct Plan {
     pub(crate) tasks: Tasks,
     /// Unknown at each position of the elimination order.
     pub(crate) order: Vec<u32>,
-    /// Is `order` 0, 1, 2, ...?
+    /// True if `order` is 0, 1, 2, ...
     pub(crate) is_natural: bool,
     pub(crate) cliques: Lists,
     pub(crate) largest_clique: usize,
-    /// Size of the largest block, or of the small blocks that are added together in one front.
+    /// Size of the largest block, or of all small blocks that are added together in one front, if they are larger.
     pub(crate) n_block: usize,
     pub(crate) counters: Counters,
 }
@@ -61,11 +61,12 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
     Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
 }
 
-/// Largest work of a dissection that is accepted, relative to minimum degree [-]. It limits the loss for one thread. Chosen, not tuned.
+/// Largest accepted work of a dissection, relative to that of minimum degree [-]. It limits the loss for one thread. Chosen, not tuned.
 const MORE_WORK: f64 = 1.1;
-/// Ratio of a tree's work to its longest path from which no dissection is tried [-]: so many threads have work. Chosen, not tuned.
+/// Parallelism of a tree from which no dissection is tried: the ratio of its work to its longest path [-]. This many threads then have
+/// work. Chosen, not tuned.
 const ROOM: f64 = 32.0;
-/// Levels of dissection that are tried, at most [-]: 64 parts. Chosen, not tuned.
+/// Largest number of levels of dissection that are tried [-]. Six levels make 64 parts. Chosen, not tuned.
 const MOST_LEVELS: u32 = 6;
 
 /// Returns the fronts in the order that the options require. The choice depends on the structure alone.
@@ -106,7 +107,7 @@ fn ordered(
     best
 }
 
-/// Returns one front for all unknowns, or none without unknowns.
+/// Returns one front for all unknowns. Returns no front if there are no unknowns.
 fn one_front(n: usize) -> Fronts {
     let mut fronts = Fronts {
         pivots: Lists::with_capacity(1),
@@ -124,7 +125,7 @@ fn one_front(n: usize) -> Fronts {
     fronts
 }
 
-/// State of the conversion of fronts of nodes into fronts of unknowns with all maps.
+/// State of the planner, which converts fronts of nodes into fronts of unknowns with all maps.
 struct Planner {
     plan: Plan,
     /// Position of each unknown in the elimination order.
@@ -133,7 +134,8 @@ struct Planner {
     row: Vec<u32>,
     /// The elements of each front.
     elements_of: Lists,
-    /// Start of target lists that occur again: most fronts of a mechanism have the pattern of another one.
+    /// Start of each target list that is known already. Lists are reused, because most fronts of a mechanism have the pattern of another
+    /// front.
     known: HashMap<Vec<u32>, usize>,
 }
 
@@ -260,7 +262,7 @@ impl Planner {
 }
 
 impl Plan {
-    /// Returns the size of the largest block, or of the small blocks of one front together.
+    /// Returns the size of the largest block, or of all small blocks of one front if they are larger.
     fn largest_blocks(&self, elements_of: &Lists) -> usize {
         let sizes =
             |s: usize| elements_of.get(s).iter().map(|&e| self.cliques.get(e as usize).len());
@@ -287,7 +289,7 @@ impl Plan {
     }
 }
 
-/// Replaces targets from index `from` on by equal ones of an earlier front, where these exist.
+/// Replaces the targets from index `from` on by equal targets of an earlier front, if such targets exist.
 fn share(
     known: &mut HashMap<Vec<u32>, usize>,
     from: usize,

@@ -1,24 +1,24 @@
-//! Sums, by unknown, of values that elements write for their unknowns: the same bits by one thread and by several.
+//! Sums, by unknown, of values that elements write for their unknowns. One thread and several threads give the same bits.
 //!
 //! ```text
 //! elements   [ stretch 1 | stretch 2 | ... ]        unknowns   [ first used in stretch 1 | in stretch 2 | ... ]
 //! a stretch sums values of unknowns first used in it, and stores those of earlier unknowns; then the stored values are added
 //! ```
 //!
-//! The values of one unknown are summed in the order of the elements, because the stretch that uses it first comes before all others.
+//! The values of one unknown are summed in the order of the elements: the stretch that uses the unknown first comes before all others.
 
 use crate::graph::{Lists, index};
 use crate::plan::Plan;
 use mbs_math::blocks::combine;
 use mbs_math::{BlockSource, Real, Team};
 
-/// Elements of a stretch [-]: work of some microseconds.
+/// Number of elements of a stretch [-], which is work of some microseconds.
 const ELEMENTS: usize = 128;
 
 /// Scratch for the values, and the division of the elements into stretches.
 #[derive(Debug, Clone)]
 pub(crate) struct Scatter<T> {
-    /// Values of one element; for a team the stored values, and scratch for an element of each stretch.
+    /// Values of one element. For a team: the stored values, and scratch for an element of each stretch.
     values: Vec<T>,
     /// Division for a team; `None` for one thread.
     cuts: Option<Cuts>,
@@ -27,9 +27,9 @@ pub(crate) struct Scatter<T> {
 /// Division of the elements into stretches for a team.
 #[derive(Debug, Clone)]
 struct Cuts {
-    /// First element, first unknown and first stored value of each stretch, and the ends.
+    /// First element, first unknown and first stored value of each stretch; at the end the three totals.
     marks: Vec<[usize; 3]>,
-    /// For each stretch, those of its unknowns for which later stretches store values.
+    /// For each stretch, the unknowns that it uses first and for which later stretches store values.
     incoming: Lists,
     /// Index of the stored value for each entry of `incoming`.
     kept: Vec<u32>,
@@ -85,7 +85,7 @@ impl<T: Real> Scatter<T> {
         Self { values: vec![T::ZERO; n], cuts }
     }
 
-    /// Sets `out[u]` to zero, joined with the values of all elements for u, in the order of the elements.
+    /// Starts each `out[u]` at zero and joins it with the values of all elements for u, in the order of the elements.
     #[inline(always)]
     pub(crate) fn combine<W: Team>(
         &mut self,

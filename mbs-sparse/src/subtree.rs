@@ -1,4 +1,4 @@
-//! Factorisation and the two sweeps, task by task, with the numbers that belong to a task and those below it.
+//! Factorisation and the two sweeps, task by task. A task works on its own numbers and on those of the tasks below it.
 //!
 //! ```text
 //! factor:    tasks below (at the same time, each with its part of the numbers), then the fronts of the task in order
@@ -19,18 +19,18 @@ use crate::tasks::{Owned, Storage, Task};
 use mbs_math::{BlockSource, FactorError, Real, Team};
 use std::convert::Infallible;
 
-/// Numbers of a factorisation that belong to neighbouring tasks with all tasks below.
+/// Numbers of a factorisation that belong to neighbouring tasks and all tasks below them.
 #[derive(Debug)]
 pub(crate) struct Numbers<'a, T> {
     pub(crate) fronts: &'a mut [T],
     pub(crate) pivots: &'a mut [T],
     pub(crate) order: &'a mut [u32],
-    /// Rows that became pivots, as many as `order`; empty without pivoting.
+    /// Rows that became pivots, one for each entry of `order`; empty without pivoting.
     pub(crate) taken: &'a mut [u32],
 }
 
 impl<'a, T: Real> Numbers<'a, T> {
-    /// Divides the numbers after so many numbers of fronts and positions.
+    /// Divides the data in two: the first part has `numbers` numbers of fronts and `places` positions.
     fn split_at(self, numbers: usize, places: usize) -> (Self, Self) {
         let (fronts, fronts_right) = self.fronts.split_at_mut(numbers);
         let (pivots, pivots_right) = self.pivots.split_at_mut(places);
@@ -178,7 +178,7 @@ fn eliminate<T: Real>(
 
 /// Fronts of a factorisation, as visited by the sweeps of a solution.
 pub(crate) trait Sweep<T>: Sync {
-    /// Visits front `s` of a task in a sweep; `storage` is that of the task with all tasks below.
+    /// Visits front `s` of a task in a sweep. `storage` belongs to the task and all tasks below it.
     fn visit(&self, s: usize, task: &Task, storage: &mut [T], direction: Direction);
 }
 
@@ -323,7 +323,7 @@ impl<T: Real> Sweep<T> for Factor<'_, T> {
 }
 
 impl Task {
-    /// Returns the index of the task's results for rows further up, in a storage that begins at `start`.
+    /// Returns the start, in a storage that begins at `start`, of the task's results for rows of the tasks above.
     fn outer_vector(&self, start: usize) -> usize {
         self.vector[1] + self.places.len() - start
     }

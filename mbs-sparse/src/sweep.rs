@@ -12,7 +12,7 @@ use crate::kernel::BLOCK;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract;
 
-/// Makes the forward sweep through the packed front `a`, which eliminates `p` unknowns, from index `first` of `y` on.
+/// Makes the forward sweep through the packed front `a`, whose `p` pivots begin at index `first` of `y`.
 pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {
     let (mut at, mut more) = (first, p);
     while more > BLOCK {
@@ -62,7 +62,7 @@ fn forward_block<T: Real, const P: usize>(
 ) {
     let columns: [&[T]; P] = columns(a, P + more + rows.len());
     let (y1, after) = y[at..at + P + more].split_at_mut(P);
-    // Within a row the last computed value is used last, so that each operation waits for one product only.
+    // Each row uses the value that was computed last as its last operand. So each operation waits for only one product.
     let mut v = [T::ZERO; P];
     for i in 0..P {
         let mut sum = y1[i];

@@ -15,7 +15,7 @@ use crate::tree::NONE;
 use mbs_math::Team;
 use std::ops::Range;
 
-/// Levels of tasks at most [-]: each level needs space on the stack of a thread. Chosen, not tuned.
+/// Largest number of levels of tasks [-]. Each level needs space on the stack of a thread. Chosen, not tuned.
 const DEEPEST: usize = 100;
 
 /// A part of the tree of fronts that one thread works through.
@@ -23,18 +23,20 @@ const DEEPEST: usize = 100;
 pub(crate) struct Task {
     /// Fronts of the task itself, after those of its children.
     pub(crate) fronts: Range<usize>,
-    /// Positions of their pivots in the elimination order.
+    /// Positions of the task's pivots in the elimination order.
     pub(crate) places: Range<usize>,
-    /// First position of the task with all tasks below, and the first of those tasks.
+    /// First position of the task and all tasks below it, and the first of those tasks.
     pub(crate) first_place: usize,
     pub(crate) first_task: usize,
-    /// Range in the list of outer rows: rows of later tasks in which its fronts and children have entries, as ascending positions.
+    /// Range in the list of outer rows. These are the rows of later tasks in which the task's fronts and children have entries, as
+    /// ascending positions.
     pub(crate) outer: Range<usize>,
-    /// Storage of numbers: start for the task with all below, start for the task alone, and end.
+    /// Storage of numbers as three offsets: the start for the task with all tasks below it, the start for the task alone, and the end.
     pub(crate) numbers: [usize; 3],
-    /// Storage of a vector: start for the task with all below, start for the task alone, and end.
+    /// Storage of a vector as three offsets: the start for the task with all tasks below it, the start for the task alone, and the end.
     pub(crate) vector: [usize; 3],
-    /// Estimated begin and end of its factorisation, with all below, if one thread did all tasks in turn [ns].
+    /// Estimated begin and end of the factorisation of the task with all tasks below it, if one thread did all tasks one after another
+    /// [ns].
     pub(crate) work: [f64; 2],
 }
 
@@ -58,9 +60,9 @@ pub(crate) struct Tasks {
     pub(crate) sizes: [usize; 2],
 }
 
-/// Data that belong to neighbouring tasks with all tasks below them.
+/// Data that belong to neighbouring tasks and all tasks below them.
 pub(crate) trait Owned: Send + Sized {
-    /// Divides the data into those of the tasks before `cut` and the rest; `begin` is the first task of all.
+    /// Divides the data at the task `cut`, into those of the tasks before it and the rest; `begin` is the first task of all.
     fn cut(self, begin: &Task, cut: &Task) -> (Self, Self);
 }
 
@@ -75,7 +77,7 @@ impl<T: Send> Owned for Storage<'_, T> {
 }
 
 impl Tasks {
-    /// Number of tasks with none below them: so many can be worked on at the same time.
+    /// Number of tasks that have no task below them. Threads can do this many tasks at the same time.
     pub(crate) fn n_leaves(&self) -> usize {
         (0..self.list.len()).filter(|&task| self.below(task).is_empty()).count()
     }
@@ -118,8 +120,8 @@ impl Tasks {
         }
     }
 
-    /// Enlarges the storage of every task for a front of all its unknowns, the largest that delayed pivots can cause. `order` has the unknown
-    /// at each position.
+    /// Enlarges the storage of every task so that one front can have all unknowns of the task, the largest front that delayed pivots can
+    /// cause. `order` has the unknown at each position.
     pub(crate) fn widen(&mut self, order: &[u32]) {
         let mut end = 0;
         for at in 0..self.list.len() {
@@ -231,7 +233,7 @@ impl<'a> Cutter<'a> {
         made
     }
 
-    /// Makes the task that ends with front `root` and reaches down to the next fork with enough work on two sides.
+    /// Makes the task that ends with front `root` and begins after the next fork of the tree that has enough work on two sides.
     fn subtree(&mut self, root: usize, depth: usize) -> u32 {
         let mut low = root;
         loop {
@@ -255,7 +257,7 @@ impl<'a> Cutter<'a> {
 }
 
 impl Tasks {
-    /// Lays out the storage and rows of task `at`. Needs those of its children.
+    /// Computes the storage and the rows of task `at`. The storage of its children must be known.
     fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest_block: usize) {
         let own = &fronts[self.list[at].fronts.clone()];
         let (first, last) = (own[0].first, &own[own.len() - 1]);

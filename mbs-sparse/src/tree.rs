@@ -10,14 +10,14 @@
 
 use crate::graph::Lists;
 
-// Only ratios of these times matter. They were tried on chains of 4, 6, 12 and 13 unknowns per element. (0.25, 1.5, 20) changes nothing;
-// (0.15, 1, 40) makes the chain of 4 one fifth slower. (0.12, 1, 80) makes every chain slower by a sixth or more.
+// Only ratios of these times matter. Other times were tried on chains of 4, 6, 12 and 13 unknowns per element. (0.25, 1.5, 20) changes
+// nothing; (0.15, 1, 40) makes the chain of 4 one fifth slower. (0.12, 1, 80) makes every chain slower by a sixth or more.
 
 /// Time of one multiply-subtract in a front [ns].
 const MULTIPLY_SUBTRACT: f64 = 0.25;
 /// Time to add one number of an update into the parent [ns].
 const EXTEND_ADD: f64 = 0.6;
-/// Constant time of every front, whatever its size [ns].
+/// Constant time of a front of any size [ns].
 const FRONT: f64 = 20.0;
 /// Index that stands for no parent.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -35,8 +35,8 @@ pub(crate) struct Fronts {
     pub(crate) work: Vec<f64>,
 }
 
-/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`. In a tree with more work than `grain` [ns], the heaviest child of
-/// every front comes first, so that the path from it up to the next fork is contiguous.
+/// Builds the fronts for nodes of `weight` unknowns, eliminated in the order of `place`. In a tree with more work than `grain` [ns], the
+/// heaviest child of every front comes first. So the path from this child up to the next fork is contiguous.
 pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f64) -> Fronts {
     let n = place.len();
     let mut at = vec![0_u32; n];
@@ -96,7 +96,7 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f
     Fronts { pivots, rows: kept, parent, work }
 }
 
-/// Returns rows(v) for every position v of the elimination, as positions.
+/// Returns rows(v), the later positions in the column of v, for every position v of the elimination.
 fn structure(elements: &Lists, place: &[u32]) -> Lists {
     let n = place.len();
     let mut first_here = chains(n);
@@ -136,8 +136,8 @@ fn structure(elements: &Lists, place: &[u32]) -> Lists {
     rows
 }
 
-/// Merges fronts with their parents. Returns for each node the node whose front eliminates it, and the numbers of pivots and of unknowns of
-/// that front.
+/// Merges fronts with their parents. Returns for each node the node whose front eliminates it. Also returns the numbers of pivots and of
+/// unknowns of that front.
 fn merged(
     rows: &Lists,
     parent: &[u32],
@@ -171,7 +171,7 @@ pub(crate) fn time(p: usize, f: usize) -> f64 {
     work(p, f) * MULTIPLY_SUBTRACT + carried * EXTEND_ADD + FRONT
 }
 
-/// Does a child front (pivots, size) cost less merged into its parent than separate?
+/// True if a child front (pivots, size) costs less merged into its parent than separate.
 fn is_merge_cheaper(child: (usize, usize), parent: (usize, usize)) -> bool {
     let update = child.1 - child.0;
     let together = work(child.0 + parent.0, child.0 + parent.1);
@@ -180,13 +180,13 @@ fn is_merge_cheaper(child: (usize, usize), parent: (usize, usize)) -> bool {
     (together - apart) * MULTIPLY_SUBTRACT < carried * EXTEND_ADD + FRONT
 }
 
-/// Returns the multiply-subtracts of `p` pivots in a front of `f` unknowns, including the two triangular sweeps.
+/// Returns the number of multiply-subtracts for `p` pivots in a front of `f` unknowns, including the two triangular sweeps.
 fn work(p: usize, f: usize) -> f64 {
     (0..p).map(|k| ((f - k) * (f - k + 5)) as f64 / 2.0).sum()
 }
 
-/// Returns the remaining fronts with children before parents and each subtree contiguous; given the `total` work, the largest subtree is
-/// first.
+/// Returns the remaining fronts, with children before parents and each subtree contiguous. If `total` has the work of each subtree, the
+/// subtree with the most work is first.
 fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) -> Vec<u32> {
     let n = representative.len();
     let mut children = chains(n);
@@ -197,7 +197,7 @@ fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) ->
             above => children.push(above as usize, v, n),
         }
     }
-    // The list has parents before children, with the last child first; reversed it is the postorder.
+    // The list has parents before children, with the last child first. The reversed list is the postorder.
     let mut order = Vec::with_capacity(n);
     let mut open = roots;
     open.reverse();

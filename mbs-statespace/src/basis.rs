@@ -20,7 +20,7 @@ pub(crate) struct Basis<T> {
     f: usize,
     rows: Vec<T>,
     block: Vec<T>,
-    /// Products P_e R and T_e P_e R over the columns that are not zero, and the numbers of these columns.
+    /// Products P_e R and T_e P_e R over the columns of R that are not zero for the element, and the indices of these columns.
     local: Vec<T>,
     product: Vec<T>,
     columns: Vec<u32>,
@@ -156,7 +156,8 @@ impl<T: Real> Basis<T> {
         }
     }
 
-    /// Gathers the rows of R for the unknowns of a clique, over the columns that are not zero there: ascending columns, then row by row.
+    /// Gathers the rows of R for the unknowns of a clique, over the columns that are not zero there. First come the ascending column
+    /// indices, then the rows.
     fn pick(&mut self, elimination: &Elimination<T>, clique: &[u32]) {
         let (rank, f, rows) = (elimination.rank(), self.f, &self.rows);
         let entry = |unknown: u32, column: usize| {

@@ -11,7 +11,7 @@ use mbs_core::step::StepError;
 use mbs_core::{FactorError, Real};
 
 impl<T: Real> Workspace<T> {
-    /// Sets C = M R at the middle of the predicted motion; `dq` is left at the middle.
+    /// Sets C = M R at the middle of the predicted motion. Leaves the increment up to the middle in `dq`.
     pub(crate) fn set_chart<M: Model<T>>(
         &mut self,
         model: &M,

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use mbs_core::dense::front::column;
 use mbs_core::{BlockSource, Cliques, Real};
 
-/// A symmetric positive definite matrix of size f, given to mbs-core's solver as one element that couples all unknowns.
+/// A symmetric positive definite matrix of size f. mbs-core's solver gets it as one element that couples all unknowns.
 #[derive(Debug, Clone)]
 pub(crate) struct Symmetric<T> {
     clique: Vec<u32>,

@@ -1,4 +1,4 @@
-//! Common trait of formulations for this crate: [`StateSpace`].
+//! Implementation of the common trait of formulations by this crate: [`StateSpace`].
 
 use crate::history::History as OfWorkspace;
 use crate::options::Options;
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize> Trials<T, D> for StateSpace<T> {}
 
 impl<T: Real, const D: usize> Describe<T, D> for StateSpace<T> {}
 
-/// Passes all that the next step continues from to a visitor.
+/// Passes all data on which the next step depends to a visitor.
 fn walk<T: Real>(
     own: &mut OfWorkspace<T>,
     terms: &mut Terms<T>,

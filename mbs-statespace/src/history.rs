@@ -1,34 +1,34 @@
-//! State that a step leaves for the next one besides the model's state: the choice of independent coordinates, and its quality.
+//! State on which the next step depends besides the model's state: the choice of independent coordinates, and its quality.
 
 use crate::elimination::Order;
 use crate::workspace::Workspace;
 use mbs_core::Real;
 
-/// State of a [`Workspace`] that the next step continues from.
+/// State of a [`Workspace`] on which the next step depends.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History<T> {
     /// Order of the reused pivots.
     pub order: Order<T>,
-    /// Smallest pivot at the start; or at a later choice, where that was larger [-].
+    /// Smallest pivot at the start, or at a later choice if it was larger there [-].
     pub usual: T,
     /// Largest entry of R at the last choice [-]; zero while unknown.
     pub first_basis: T,
-    /// Does the next step choose independent coordinates again?
+    /// True if the next step chooses independent coordinates again.
     pub is_stale: bool,
-    /// Choices of independent coordinates since the start.
+    /// Number of choices of independent coordinates since the start.
     pub choices: u32,
 }
 
 impl<T: Real> Workspace<T> {
-    /// State that the next step continues from.
+    /// State on which the next step depends.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let Self { usual, first_basis, is_stale, choices, .. } = *self;
         History { order: self.elimination.order(), usual, first_basis, is_stale, choices }
     }
 
-    /// Restores a history of the same model. Returns false if it does not fit. Then nothing changes, or the next step chooses independent
-    /// coordinates again.
+    /// Restores a history of the same model. Returns false if it does not fit. In that case either nothing changes, or the next step
+    /// chooses independent coordinates again.
     pub fn set_history(&mut self, history: &History<T>) -> bool {
         let is_ours = history.is_stale || history.order.pivots.len() == self.rank;
         if !is_ours || !self.elimination.set_order(&history.order) {

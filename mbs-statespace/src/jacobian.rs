@@ -19,8 +19,9 @@ pub(crate) struct Jacobian<T> {
 }
 
 impl<T: Real> Jacobian<T> {
-    /// Creates the pattern of `model`: the entries that are not zero at one of two random configurations. An entry that vanishes at both
-    /// vanishes everywhere, except with probability zero. Rows of curves, which may be flat over a range, keep all entries.
+    /// Creates the pattern of `model`: the entries that are not zero at one of two random configurations. An entry that is zero at both is
+    /// zero everywhere, except by a coincidence of probability zero. Rows of curves have all entries in the pattern, because a curve may be
+    /// flat over a range.
     pub(crate) fn new(model: &impl Model<T>) -> Self {
         let size = |e| model.rows(e).len() * model.clique(e).len();
         let largest = (0..model.n_elements()).map(size).max().unwrap_or(0);
@@ -92,7 +93,7 @@ impl<T: Real> Jacobian<T> {
         Pattern { n_columns, starts: self.starts.clone(), columns: self.columns.clone() }
     }
 
-    /// Gathers the numbers of J as last evaluated in `terms`.
+    /// Gathers the entries of J from the last evaluation of `terms`.
     pub(crate) fn gather(&mut self, model: &impl Model<T>, terms: &Terms<T>) {
         for e in 0..model.n_elements() {
             let range = model.rows(e);
@@ -119,10 +120,11 @@ impl<T: Real> Jacobian<T> {
     }
 }
 
-/// Least mass of an unknown in the scaling, relative to the largest [-]. It keeps the inverse mass finite. Chosen, not tuned.
+/// Smallest mass of an unknown in the scaling, relative to the largest mass [-]. This limit makes every inverse mass finite. Chosen, not
+/// tuned.
 const LIGHT: f64 = 1e-6;
 
-/// Returns the column scales 1 / sqrt(diagonal of M), by which light unknowns become dependent first.
+/// Returns the column scales 1 / sqrt(diagonal of M). With these scales, light unknowns become dependent first.
 pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
     let mut diagonal = vec![T::ZERO; model.n_unknowns()];
     let (terms, mut block) = (model.terms(), vec![T::ZERO; largest_block(model)]);

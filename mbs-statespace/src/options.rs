@@ -1,4 +1,4 @@
-//! Options that the caller chooses. Public fields; start from [`Options::default`].
+//! Options that the caller chooses. Start from [`Options::default`] and change the public fields as needed.
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
@@ -13,11 +13,12 @@ pub struct Options<T> {
     pub coordinates: Coordinates,
     /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
-    /// Newton iterations allowed in one step.
+    /// Largest number of Newton iterations in one step.
     pub max_iterations: u32,
     /// Condition on which independent coordinates are chosen again.
     pub pivot_change: PivotChange,
-    /// Adds the geometric stiffness of the constraints to the tangent; P1 (44) has none. It is the curvature of the constraint surface.
+    /// Adds the geometric stiffness of the constraints, which is the curvature of the constraint surface, to the tangent. P1 (44) has no
+    /// such term.
     pub geometric_stiffness: bool,
 }
 
@@ -27,7 +28,7 @@ pub enum Coordinates {
     /// Coordinates in the tangent plane of the constraints at the middle of the step, orthogonal in the metric of the mass:
     /// z = C^T q with C = M R there. The motion does not depend on the choice of independent columns.
     Tangent,
-    /// The independent columns themselves [P1 (40)]. The motion depends on their choice within the error of the integrator.
+    /// The independent columns themselves [P1 (40)]. The choice of columns then changes the motion within the error of the integrator.
     Chosen,
 }
 
@@ -45,7 +46,7 @@ impl<T: Real> Default for Options<T> {
     fn default() -> Self {
         /// Tolerance of corrections [-].
         const TOLERANCE: f64 = 1e-10;
-        /// Least tolerance, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
+        /// Smallest allowed tolerance, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
         const ROUNDINGS: f64 = 64.0;
         Self {
             integrator: Integrator::trapezoidal(),

@@ -18,32 +18,33 @@ use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, largest, largest_or_nan};
 
-/// Iterations of the position problem at most [-]. With a contraction of 1/4, eight iterations leave 1e-5 of the first correction. Chosen,
-/// not tuned.
+/// Largest number of iterations of the position problem [-]. With a contraction of 1/4, eight iterations leave 1e-5 of the first
+/// correction. Chosen, not tuned.
 const MAX_POSITIONS: u32 = 8;
 /// Iterations of the position problem above which other independent coordinates are selected [-]. Chosen, not tuned.
 const MANY_POSITIONS: u32 = 4;
-/// Largest ratio of two successive Newton corrections [-]. Up to it the solution is the one closest to the prediction. The theorem of Newton
-/// and Kantorovich makes the branch certain up to 1/2.
+/// Largest ratio of two successive Newton corrections [-]. Up to this ratio the solution is the one closest to the prediction. The theorem
+/// of Newton and Kantorovich guarantees this up to a ratio of 1/2.
 const CONTRACTION: f64 = 0.25;
 /// Ratio of a pivot to its size at the selection, below which other independent coordinates are selected [-]. Chosen, not tuned.
 const DECAY: f64 = 1e-2;
-/// Largest entry of R above which other independent coordinates are selected, if it is also twice that at the selection [-]. Chosen, not
-/// tuned.
+/// Largest entry of R above which other independent coordinates are selected [-]. The entry must also be larger than twice that at the
+/// selection. Chosen, not tuned.
 const LARGE_BASIS: f64 = 10.0;
-/// Correction that counts as rounding error, in units of EPSILON times the displacement over the smallest pivot [-]. Chosen, not tuned.
+/// Correction that counts as rounding error, in units of EPSILON times the displacement divided by the smallest pivot [-]. Chosen, not
+/// tuned.
 const LOST: f64 = 16.0;
 /// Correction that counts as rounding error, in units of EPSILON times the scene's length [-]. Chosen, not tuned.
 const PLACE_ROUNDINGS: f64 = 4.0;
-/// Correction at which a position problem that no longer converges is solved, away from singular positions [EPSILON of the scene's length].
-/// It is the rounding error of a user-defined relation of angles of a thousand turns.
+/// Correction with which a position problem that no longer converges counts as solved, away from singular positions [EPSILON of the scene's
+/// length]. It is the rounding error of a user-defined relation of angles of a thousand turns.
 const STALLED: f64 = 1024.0;
 /// Ratio of the smallest pivot to its usual size, below which a singular position is close [-]. Chosen, not tuned.
 const NEAR_SINGULAR: f64 = 0.1;
 
 impl<T: Real> Workspace<T> {
-    /// Solves for positions, velocities and accelerations on their constraints that have the required z, z' and z''. Leaves J factored and R
-    /// evaluated at the position.
+    /// Solves for the positions, velocities and accelerations that satisfy their constraints and have the required z, z' and z''. Leaves J
+    /// factored and R evaluated at the position.
     pub(crate) fn place<M: Model<T>>(
         &mut self,
         model: &M,
@@ -108,8 +109,8 @@ impl<T: Real> Workspace<T> {
 
     /// Checks the sizes of the pivots. Smaller pivots cause another selection, and a lost pivot fails the step.
     ///
-    /// With sigma the smallest pivot, rounding errors of v are EPSILON / sigma and those of a are EPSILON / sigma^2. Below EPSILON^(1/4)
-    /// accelerations would have less than half of their digits.
+    /// Let sigma be the smallest pivot. Rounding errors of v are EPSILON / sigma, and those of a are EPSILON / sigma^2. If sigma is below
+    /// EPSILON^(1/4), accelerations have less than half of their digits.
     pub(crate) fn check_pivots(&mut self) -> Result<(), StepError> {
         self.pivots = self.elimination.pivots();
         self.is_stale |= self.pivots.decay < T::from_f64(DECAY);
@@ -180,7 +181,7 @@ impl<T: Real> Workspace<T> {
         self.pivots.smallest < self.usual * T::from_f64(NEAR_SINGULAR)
     }
 
-    /// Returns the error for positions whose branch is not certain: lost rank close to a singular position, no convergence elsewhere.
+    /// Returns the error for positions whose branch is not certain: lost rank if a singular position is close, otherwise no convergence.
     fn lost_branch(&self, iterations: u32, correction: T) -> StepError {
         if self.is_near_singular() {
             return self.rank_lost();

@@ -8,9 +8,10 @@
 //! J_d^T lambda = (Q - M a)_d                                                                   [P1 (3)]
 //! ```
 //!
-//! The method differs from the published one. Unknowns are increments. a replaces R z'' + R' z', so R' is never formed. The tangent contains
-//! the geometric stiffness, which is the curvature of the constraint surface. Newton's method then converges quadratically except for
-//! velocity terms. An option leaves it out, as published. f is evaluated as (M a - Q)_i + J_i^T lambda, which equals R^T (M a - Q).
+//! The method differs from the published one. Unknowns are increments. The acceleration a replaces R z'' + R' z', so R' is never formed.
+//! The tangent contains the geometric stiffness, which is the curvature of the constraint surface. Newton's method then converges
+//! quadratically, apart from terms of velocities. An option leaves the geometric stiffness out, as published. The residual f is evaluated
+//! as (M a - Q)_i + J_i^T lambda, which equals R^T (M a - Q).
 
 use crate::options::{Coordinates, Options, PivotChange};
 use crate::pivots::select_pivots;
@@ -28,9 +29,10 @@ use mbs_core::{FactorError, Real, SpdSolver};
 
 /// Constraint residual of velocities and accelerations that counts as a violation, relative to their size [-]. Chosen, not tuned.
 const VIOLATION: f64 = 5e-10;
-/// Least residual that counts as a violation, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
+/// Smallest residual that counts as a violation, in units of EPSILON [-]. It has an effect in single precision only. Chosen, not tuned.
 const VIOLATION_ROUNDINGS: f64 = 1024.0;
-/// Corrections that count as rounding errors, in units of EPSILON times the displacement and times the scene's length [-]. Chosen, not tuned.
+/// Corrections that count as rounding errors, in units of EPSILON times the displacement, and in units of EPSILON times the scene's length
+/// [-]. Chosen, not tuned.
 const NOISE: [f64; 2] = [64.0, 4.0];
 /// Correction with which a step may end after the allowed iterations, relative to the displacement by accelerations [-]. Chosen, not tuned.
 const ENOUGH: f64 = 1e-6;
@@ -39,8 +41,8 @@ const ENOUGH: f64 = 1e-6;
 ///
 /// A step fails at singular positions with [`StepError::RankLost`], which names one of the dependent rows.
 ///
-/// Cost for each iteration: one or two evaluations and sparse factorisations of J, and three sparse solves. Besides, n f
-/// entries of R and a dense factorisation of size f, where f is the number of freedoms. No allocation.
+/// Cost of an iteration: one or two evaluations and sparse factorisations of J, and three sparse solves. An iteration also computes n f
+/// entries of R and makes a dense factorisation of size f, where f is the number of freedoms. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -254,7 +256,7 @@ fn stopping<T: Real>((correction, last): (T, T), (goal, noise): (T, T)) -> Optio
     }
 }
 
-/// Checks the violations of all rows. A dropped row that is violated has become independent.
+/// Checks the violations of all rows. A dropped row that is violated is no longer dependent.
 fn check_violation<T: Real, M: Model<T>>(
     model: &M,
     length: T,

@@ -13,7 +13,8 @@ use mbs_core::step::Counts;
 
 /// Workspace of the state-space step, with the present independent coordinates.
 ///
-/// A step allocates nothing while the factors of a new choice fit into twice the memory of the first ones. A larger choice allocates once.
+/// A step allocates nothing while the factors of a new choice need at most twice the memory of the first ones. A choice that needs more
+/// allocates once.
 #[derive(Debug, Clone)]
 pub struct Workspace<T> {
     pub(crate) terms: Terms<T>,
@@ -24,8 +25,8 @@ pub struct Workspace<T> {
     pub(crate) solver: Dense<T>,
     /// Matrix C^T R of the tangent coordinates, factored.
     pub(crate) turn: General<T>,
-    /// Tangent coordinates, f numbers each: C^T x of the predicted dq, v and a; then the correction towards the required C^T x, and
-    /// d = C^T (q - q_p).
+    /// Tangent coordinates in three vectors of f numbers: C^T x of the predicted dq, v and a. Then the correction towards the required C^T
+    /// x, and d = C^T (q - q_p).
     pub(crate) predicted: [Vec<T>; 3],
     pub(crate) wanted: Vec<T>,
     pub(crate) measured: Vec<T>,
@@ -34,10 +35,10 @@ pub struct Workspace<T> {
     pub(crate) q: Vec<T>,
     pub(crate) v: Vec<T>,
     pub(crate) a: Vec<T>,
-    /// A correction (an extended vector), and the balance M a - Q for each unknown.
+    /// A correction (an extended vector), and the imbalance M a - Q for each unknown.
     pub(crate) change: Vec<T>,
     pub(crate) balance: Vec<T>,
-    /// Residual, then correction, of the independent coordinates.
+    /// Residual, and after a solution the correction, of the independent coordinates.
     pub(crate) d: Vec<T>,
     /// Multipliers, multipliers over a', and residuals of velocities or accelerations, for each row.
     pub(crate) lambda: Vec<T>,
@@ -46,17 +47,17 @@ pub struct Workspace<T> {
     /// Scratch for the dependent unknowns, and scratch for one element.
     scratch: Vec<T>,
     local: Vec<T>,
-    /// Rank at the start, and the largest of the smallest pivots at all choices so far.
+    /// Rank at the start. Then, from all choices so far, the largest value of the smallest pivot.
     pub(crate) rank: usize,
     pub(crate) usual: T,
     pub(crate) pivots: Pivots<T>,
     /// Largest entry of R at the last choice; zero while unknown.
     pub(crate) first_basis: T,
-    /// Does the next step choose independent coordinates again?
+    /// True if the next step chooses independent coordinates again.
     pub(crate) is_stale: bool,
     /// Counts of factorisations and solves within a step.
     pub(crate) counts: Counts,
-    /// Choices of independent coordinates since the start.
+    /// Number of choices of independent coordinates since the start.
     pub(crate) choices: u32,
 }
 
@@ -109,12 +110,12 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// The terms of the model as last evaluated.
+    /// The terms of the model at the last evaluation.
     pub fn terms(&self) -> &Terms<T> {
         &self.terms
     }
 
-    /// Terms as last evaluated, for a caller that restores them.
+    /// Terms of the model at the last evaluation, for a caller that restores them.
     pub fn terms_mut(&mut self) -> &mut Terms<T> {
         &mut self.terms
     }
@@ -129,7 +130,7 @@ impl<T: Real> Workspace<T> {
         self.choices
     }
 
-    /// Solves change_d = -J_d^-1 rates; other entries of `change` stay.
+    /// Solves change_d = -J_d^-1 rates. Other entries of `change` keep their values.
     pub(crate) fn solve(&mut self) {
         self.counts.solves += 1;
         for r in &mut self.rates {

@@ -20,7 +20,8 @@ pub fn count() -> u64 {
 struct Counting;
 
 fn bump() {
-    // When a thread ends, its counter is destroyed first; nothing reads it then.
+    // When a thread ends, its counter is destroyed before other data. Later allocations are not counted, and nothing reads the counter
+    // then.
     let _ = COUNT.try_with(|c| c.set(c.get() + 1));
 }
 

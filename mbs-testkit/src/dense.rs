@@ -90,7 +90,7 @@ pub fn matrix(
     a
 }
 
-/// Returns the part of x that is orthogonal to all rows, by Gram-Schmidt done twice; dependent rows are left out.
+/// Returns the part of x that is orthogonal to all rows, by two passes of the Gram-Schmidt method. Dependent rows are left out.
 #[must_use]
 pub fn in_null_space(rows: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -125,7 +125,7 @@ pub fn apart(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()))
 }
 
-/// Checks that two vectors agree within `tolerance` times one plus their size.
+/// Checks that two vectors differ by at most `tolerance` times one plus their size.
 ///
 /// # Panics
 ///

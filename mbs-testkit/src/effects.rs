@@ -89,7 +89,7 @@ axis = [1.0, 0.2]
 
 const BODIES: [BodyId; 2] = [BodyId::Body(2), BodyId::Body(3)];
 
-/// Creates the mechanism without effects, over a rising road that moves towards it.
+/// Creates the mechanism without effects. The road below it rises and moves towards it.
 fn bare(dimension: Dimension) -> Scene<f64> {
     let mut scene = scene(if dimension == Dimension::Planar { PLANAR } else { SPATIAL });
     let rise = RoadFeature::Rise { start: -3.0, length: 6.0, height: 1.0, rounding: 1.0 };
@@ -108,7 +108,7 @@ pub fn with(dimension: Dimension, kind: EffectKind<f64>) -> Scene<f64> {
     scene
 }
 
-/// Returns a point of space; in the plane without its depth.
+/// Returns a point in space; in a plane its depth is zero.
 fn place(dimension: Dimension, [x, y, z]: [f64; 3]) -> [f64; 3] {
     if dimension == Dimension::Planar { [x, z, 0.0] } else { [x, y, z] }
 }
@@ -203,7 +203,7 @@ fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
     })
 }
 
-/// Creates a tire that is pressed into the road by 0.1 m. With `rolls` it has resistance, and in space a side force.
+/// Creates a tire that is pressed into the road by 0.1 m. With `rolls` the tire has rolling resistance, and in space also a side force.
 #[must_use]
 pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
     let is_spatial = dimension == Dimension::Spatial;
@@ -230,7 +230,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
     })
 }
 
-/// Creates a rolling tire with a longitudinal slip force; it slips because its body does not rotate like a wheel.
+/// Creates a rolling tire with a longitudinal slip force. The tire slips, because its body does not rotate like a wheel.
 fn driven(dimension: Dimension) -> EffectKind<f64> {
     let mut kind = tire(dimension, true);
     if let EffectKind::Tire(tire) = &mut kind {
@@ -287,7 +287,7 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     all
 }
 
-/// Returns examples of the effects with a feature that `all` does not contain.
+/// Returns examples of effects. Each has a feature that no effect in `all` has.
 fn examples(
     dimension: Dimension,
     all: &[(&str, EffectKind<f64>)],

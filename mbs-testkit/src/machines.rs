@@ -18,14 +18,14 @@ fn plus(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
-/// A joint of a machine: its second body moves relative to the first along the axis, or about it.
+/// A joint of a machine. Its second body moves relative to the first along the axis, or about it.
 #[derive(Debug, Clone)]
 pub struct Drawn {
     /// Name of the joint.
     pub name: &'static str,
     /// Bodies of the joint; the first is closer to the ground.
     pub bodies: [&'static str; 2],
-    /// Is the joint a rotation? Otherwise it is a slide.
+    /// True for a rotation; false for a slide.
     pub is_turn: bool,
     /// Point of the joint [m].
     pub at: Vector,
@@ -41,13 +41,13 @@ fn slide(name: &'static str, bodies: [&'static str; 2], at: Vector) -> Drawn {
     Drawn { name, bodies, is_turn: false, at, axis: [1.0, 0.0, 0.0] }
 }
 
-/// Slip of the parts at their contact, as a function of the velocities of the bodies [m/s].
+/// Slip of two parts at their contact [m/s], as a function of the velocities of the bodies.
 pub type Slip = Box<dyn Fn(&dyn Fn(&str) -> Twist) -> f64>;
 
-/// Text of a coupling, or of a rolling contact, in a wording.
+/// Function that writes the text of a coupling, or of a rolling contact, in a wording.
 pub type Written = Box<dyn Fn(&Wording) -> String>;
 
-/// A machine with a coupling, and the slip that the coupling must keep at zero.
+/// A machine with a coupling, and the slip that the coupling constrains to zero.
 pub struct Machine {
     /// Description of the machine.
     pub what: &'static str,
@@ -68,12 +68,12 @@ impl core::fmt::Debug for Machine {
     }
 }
 
-/// Angular velocity, and velocity of the origin of coordinates.
+/// Twist of a body: the angular velocity, and the velocity of the body's point at the origin of coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist(pub Vector, pub Vector);
 
 impl Twist {
-    /// Returns the velocity at a point.
+    /// Returns the velocity of the body's point at `place`.
     #[must_use]
     pub fn at(self, place: Vector) -> Vector {
         plus(self.1, 1.0, cross(self.0, place))
@@ -103,12 +103,12 @@ pub fn twists(joints: &[Drawn], rates: &[f64]) -> Vec<(&'static str, Twist)> {
 
 const Z: Vector = [0.0, 0.0, 1.0];
 
-/// Differences between the text of a machine and its definition.
+/// Ways in which the text of a machine may differ from its definition.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Ways {
     /// Swaps the two bodies of joints.
     pub swaps: bool,
-    /// Gives axes any length and sense.
+    /// Gives axes any length and either sense.
     pub reverses: bool,
     /// Shuffles bodies and joints.
     pub shuffles: bool,
@@ -119,12 +119,13 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// Every difference except the unit of length.
+    /// All ways except the unit of length.
     pub const ALL: Self =
         Self { swaps: true, reverses: true, shuffles: true, turns: true, millimetres: false };
 }
 
-/// Wording of a machine in a scene: order of joints and of their bodies, length and sense of axes, rotation of the machine, unit of length.
+/// Wording of a machine in a scene. It determines the order of joints and of their bodies, the length and sense of axes, the rotation of
+/// the machine, and the unit of length.
 #[derive(Debug, Clone)]
 pub struct Wording {
     /// Number of length units in a metre.
@@ -189,7 +190,8 @@ impl Wording {
         if *swap == (*size > 0.0) { -1.0 } else { 1.0 }
     }
 
-    /// Returns the text of the joints in their order, each with its second body. `body` writes a body, from its name and the joint's point.
+    /// Returns the text of the joints in the order of the wording, each with its second body. `body` writes a body, given its name and the
+    /// joint's point.
     ///
     /// # Panics
     /// Never: the wording has the joints of its machine.
@@ -214,8 +216,8 @@ impl Wording {
         format!("{bodies}{joints}{}\n", (machine.coupling)(self))
     }
 
-    /// Returns a scene with masses, gravity, springs, a controlled motor and initial velocities. The motion is the same in every wording of a
-    /// seed.
+    /// Returns a scene with masses, gravity, springs, a controlled motor and initial velocities. Every wording gives the same motion for
+    /// the same seed.
     #[must_use]
     pub fn moving(&self, machine: &Machine, seed: u64) -> String {
         let outputs = machine.joints.iter().map(|joint| {
@@ -261,7 +263,7 @@ impl Wording {
         )
     }
 
-    /// Returns the text of a body near a point; its name determines mass and axes of inertia.
+    /// Returns the text of a body near a point. The mass and the axes of inertia depend on the name and the seed.
     fn body(&self, name: &str, at: Vector, seed: u64) -> String {
         let sum = name.bytes().fold(seed, |sum, byte| sum.wrapping_mul(31) + u64::from(byte));
         let mut random = Random::new(sum);

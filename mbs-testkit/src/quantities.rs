@@ -7,7 +7,7 @@ use mbs_core::scene::{
     BodyId, CouplingId, Dimension, EffectId, Inertia, JointId, Output, RollingId, Scene, SignalId,
 };
 
-/// Returns all quantities of bodies, joints, couplings, effects and the scene, in the order of the table, without those of a run.
+/// Returns all quantities of bodies, joints, couplings, effects and the scene, in the order of the table. Quantities of a run are left out.
 #[must_use]
 pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     let center = |body: usize| match scene.bodies[body].inertia {
@@ -62,7 +62,7 @@ pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
     all.filter(|quantity| !quantity.components(scene).is_empty()).collect()
 }
 
-/// Sets quantities as the outputs of a scene, named by number.
+/// Sets quantities as the outputs of a scene. The name of an output is its number.
 pub fn show(scene: &mut Scene<f64>, quantities: impl IntoIterator<Item = Quantity<f64>>) {
     let named = |(i, quantity)| Output::new(quantity).named(&format!("channel-{i}"));
     scene.outputs = quantities.into_iter().enumerate().map(named).collect();

@@ -11,7 +11,7 @@ use mbs_core::scene::{
 pub struct Random(pub u64);
 
 impl Random {
-    /// Creates the generator of a seed, which may be any number.
+    /// Creates the generator from a seed, which may be any number.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
@@ -35,7 +35,7 @@ impl Random {
         (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
     }
 
-    /// Returns a vector of `length` numbers: `size` times random numbers for the first `n`, then zeros.
+    /// Returns a vector of `length` numbers. The first `n` are random numbers in [-1, 1] times `size`, the others zero.
     pub fn vector(&mut self, n: usize, length: usize, size: f64) -> Vec<f64> {
         (0..length).map(|i| if i < n { size * self.next() } else { 0.0 }).collect()
     }
@@ -55,7 +55,7 @@ impl Random {
         }
     }
 
-    /// Returns principal moments that a real body can have.
+    /// Returns principal moments of inertia that a real body can have.
     fn inertia(&mut self, dimension: Dimension, mass: f64) -> Inertia<f64> {
         let [a, b, c] = [0; 3].map(|_| 0.02 + 0.01 * self.next()).map(|x| x * mass);
         match dimension {
@@ -112,13 +112,13 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     Scene { duration: 0.2, bodies, joints, initials, ..scene }
 }
 
-/// Guides joints of one coordinate, each with the probability `chances` / 4; with four all of them. A guided joint has no initial value.
+/// Guides joints of one coordinate, each with the probability `chances` / 4. A guided joint has no initial value.
 #[must_use]
 pub fn guided(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n == 1)
 }
 
-/// Guides joints as [`guided`] does, but those with several coordinates, all of which are guided.
+/// Guides joints with several coordinates, as [`guided`] does for joints with one. All coordinates of a chosen joint are guided.
 #[must_use]
 pub fn guided_whole(scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
     guided_where(scene, seed, chances, |n| n > 1)
@@ -201,7 +201,7 @@ fn joint(
     }
 }
 
-/// Creates two bodies with joints of one kind, both at rest: a body on the ground, and a second one on it.
+/// Creates two bodies at rest with joints of one kind: a body on the ground, and a second body on the first.
 #[must_use]
 pub fn of_kind(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x1111);
@@ -220,7 +220,7 @@ pub fn of_kind(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     scene
 }
 
-/// Creates a chain of ball joints (revolute joints in the plane) that a joint of the given kind closes to the ground.
+/// Creates a chain of ball joints (revolute joints in the plane). A joint of the given kind connects its end to the ground.
 #[must_use]
 pub fn closed_by(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
     let mut random = Random::new(seed ^ 0x2222);
@@ -282,8 +282,8 @@ pub fn split(scene: &Scene<f64>) -> Scene<f64> {
     split
 }
 
-/// Creates a tree with `n_loops` closing joints between bodies that are not neighbours: links and ball joints (revolute joints in the plane).
-/// Only one joint of the tree has an initial velocity; assembly determines the rates of the others.
+/// Creates a tree with `n_loops` closing joints between bodies that are not neighbours. The closing joints are links and ball joints
+/// (revolute joints in the plane). Only one joint of the tree has an initial velocity. Assembly determines the rates of the others.
 #[must_use]
 pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene<f64> {
     let mut scene = tree(seed, dimension, n);
@@ -331,8 +331,8 @@ pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene
     scene
 }
 
-/// Creates a tree with closed loops, none of which share a joint. Each loop has more freedoms than its closing joint removes. With random
-/// points and axes the equations are therefore independent.
+/// Creates a tree with closed loops. No two loops have a joint in common. Each loop has more freedoms than its closing joint removes. With
+/// random points and axes the equations are therefore independent.
 #[must_use]
 pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     let mut scene = tree(seed, dimension, n);

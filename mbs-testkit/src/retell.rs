@@ -33,13 +33,13 @@ pub fn turned_in_plane(x: Vector) -> Vector {
     [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]]
 }
 
-/// Returns a spatial scene with everything in it rotated.
+/// Returns a spatial scene that is rotated with all its contents.
 #[must_use]
 pub fn turn_scene(scene: &Scene<f64>) -> Scene<f64> {
     turn_by(scene, turned)
 }
 
-/// Returns the scene with everything in it rotated by `turn`, without outputs.
+/// Returns the scene with all its contents rotated by `turn`, without outputs.
 ///
 /// # Panics
 ///
@@ -111,7 +111,7 @@ fn turn_term(term: &mut CouplingTerm<f64>, turn: &impl Fn(Vector) -> Vector) {
     }
 }
 
-/// Returns the points of the lengths of a coupling.
+/// Returns the points from which the lengths of a coupling follow.
 fn points(coupling: &mut Coupling<f64>) -> impl Iterator<Item = &mut (BodyId, Vector)> {
     coupling.terms.iter_mut().flat_map(points_of)
 }
@@ -124,7 +124,7 @@ fn points_of(term: &mut CouplingTerm<f64>) -> &mut [(BodyId, Vector)] {
 }
 
 fn turn_rolling(rolling: &mut Rolling<f64>, dimension: Dimension, turn: impl Fn(Vector) -> Vector) {
-    // a plane that the scene does not state is horizontal
+    // a plane without a normal in the scene is horizontal
     let RollingInput { base, plane: [normal, ..], .. } = RollingInput::new(rolling, dimension);
     let level = || RollingPlane { point: base.into(), normal: normal.into() };
     let plane = rolling.plane.get_or_insert_with(level);
@@ -147,7 +147,7 @@ fn turn_initial(
         InitialTarget::Joint { joint, value, rate } => {
             // Rotation vectors and angular velocities are given in global axes.
             for (number, freedom) in joints[joint.index()].kind.numbered(dimension) {
-                // these are slides along the global axes, or a rotation vector
+                // these guides drive slides along the global axes, or a rotation vector
                 if [Freedom::Slide(Axis::X), Freedom::Ball].contains(&freedom) {
                     for x in [value.as_mut(), rate.as_mut()].into_iter().flatten() {
                         let three = &mut x[number..number + 3];

@@ -10,7 +10,7 @@ use mbs_sparse::{Multifrontal, Options};
 /// A model with its consistent initial state.
 type Start<const D: usize> = (NaturalModel<f64, D>, State<f64>);
 
-/// The function [`start`] for planar scenes: this static has it compiled here, so that no test program compiles it again.
+/// The function [`start`] for planar scenes. It is compiled here for this static, so that no test program compiles it again.
 pub static START_IN_PLANE: fn(&Scene<f64>) -> Start<2> = start::<2>;
 /// The function [`start`] for spatial scenes.
 pub static START_IN_SPACE: fn(&Scene<f64>) -> Start<3> = start::<3>;

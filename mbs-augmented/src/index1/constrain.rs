@@ -9,16 +9,17 @@ use mbs_core::step::StepError;
 use mbs_core::team::{norm_inf, on_stretches, set_product, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// Violation of constraints that rounding errors cause [EPSILON of the displacement of the coordinates]: six binary digits. Penalties are not
-/// raised for it.
+/// Violation of constraints that rounding errors cause [EPSILON of the displacement of the coordinates]. It is six binary digits. Penalties
+/// are not raised for a smaller violation.
 const ROUNDING: f64 = 64.0;
-/// Contraction of a violation of positions above which penalties are raised [-]. At this contraction ten sweeps reduce it by ten digits.
+/// Contraction of a violation of positions above which penalties are raised [-]. The contraction is the fraction of the violation that a
+/// sweep leaves. At this value ten sweeps reduce a violation by ten digits.
 const SLOW_CONTRACTION: f64 = 0.1;
-/// Slow sweeps after which the penalties of rows of velocities are lowered [-]. Where these rows depend on no others, raised penalties
-/// prevent a second slow sweep.
+/// Number of slow sweeps after which the penalties of rows of velocities are lowered [-]. If these rows depend on no others, raised
+/// penalties prevent a second slow sweep.
 const SLOW_SWEEPS: u32 = 1;
-/// Factor on lowered penalties of rows of velocities [-]. It is the contraction of rows of positions against them, and still enforces the
-/// independent rows. A power of two costs no digits.
+/// Factor on lowered penalties of rows of velocities [-]. A sweep then leaves about this fraction of a violation of positions that depends
+/// on these rows. The independent rows of velocities are still enforced. A power of two causes no rounding error.
 const LOOSE: f64 = 1.0 / 8_192.0;
 /// Contraction of a violation of positions above which a sweep is useless [-].
 const USELESS: f64 = 0.9;
@@ -72,15 +73,16 @@ pub(super) fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(left)
 }
 
-/// Projects the positions by W d = -J^T s phi, q += d, until phi is at machine precision.
+/// Projects the positions by W d = -J^T s phi, q += d, until phi is at machine precision. Here s are the penalties.
 ///
-/// Rows of velocities have phi = 0 here. They may depend on rows of positions, such as those of two wheels on one axle. A sweep then closes
-/// only a fraction of a joint's violation. Where that is slow, the penalties of rows of velocities are lowered. These rows then slip by the
-/// correction, which is of third order in the step.
+/// Rows of velocities have phi = 0 here. They may depend on rows of positions, such as those of two wheels on one axle. A sweep then
+/// reduces a joint's violation only by a fraction. If that is slow, the penalties of rows of velocities are lowered. The rolling contacts
+/// then slip by the correction, which is of third order in the step.
 ///
 /// Every sweep starts from the positions of the last sweep, with multipliers of zero. The published method [P1 (8)-(10)] accumulates the
-/// multipliers of all sweeps, which makes the total correction orthogonal rather than each part of it. The difference is of second order in
-/// the correction. As the rows rotate, accumulated multipliers would push light bodies away, the more the heavier the bodies that they carry.
+/// multipliers of all sweeps. Then the total correction is orthogonal, rather than each part of it. The difference is of second order in
+/// the correction. But the rows rotate during the sweeps. Accumulated multipliers would then push light bodies away if these carry heavy
+/// bodies.
 fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     length: T,
@@ -90,7 +92,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(), StepError> {
     let limits = ResidualLimits::of_positions(length, options.tolerance, options.compensated);
     w.end.evaluate(model, options.compensated, s, &mut w.equations.terms);
-    // Components of directions have no unit. In a scene of a millimetre they change by more than the points do.
+    // Components of directions have no unit. In a scene of the size of a millimetre they change by more than the coordinates of points do.
     let moved = norm_inf(model.team(), w.end.moved()).max(length * T::EPSILON);
     let moved = if options.compensated { moved } else { length.max(T::ONE) };
     let rounding = moved * T::EPSILON * T::from_f64(ROUNDING);
@@ -118,8 +120,8 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
             is_loosened = true;
             continue;
         }
-        // With three or more wheels, rows of heights contradict the rows of unit lengths until these hold. That violation halves, or better,
-        // in each sweep.
+        // With three or more wheels, rows of heights contradict the rows of unit lengths until the latter are satisfied. Each sweep reduces
+        // that violation to a half or less.
         let is_slow = is_slow && !(is_loosened && contraction < T::HALF);
         let is_raised = is_slow && w.scale.raise(contraction);
         if contraction > T::from_f64(USELESS) && !is_raised {
@@ -129,8 +131,8 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if is_loosened {
         w.scale.scale_velocity_rows(model, T::ONE / T::from_f64(LOOSE));
     }
-    // The raised penalties enforce an almost lost direction on positions only. Velocities and accelerations would grow like 1 / sigma there,
-    // with sigma the smallest singular value of J.
+    // The raised penalties enforce an almost lost direction on positions only. Velocities and accelerations would grow like 1 / sigma in
+    // that direction, where sigma is the smallest singular value of J.
     if w.scale.restore() || is_loosened {
         w.factor_mass(model)?;
     }

@@ -4,13 +4,14 @@
 //! T' d = -(M a + J^T lambda - Q) / a' - J'^T s phi,     T' = M + J'^T s J' + ...
 //! ```
 //!
-//! With a symmetric tangent, corrections of a vehicle shrink to a tenth or less each, with a new factor or with the first one. (The side
-//! force of a tire turns with its wheel, and the tangent leaves out its unsymmetric part.) Two changes of the iteration make reuse possible.
+//! With a symmetric tangent, each correction of a vehicle is at most a tenth of the one before, with a new factor or with the first one.
+//! (The side force of a tire turns with its wheel, and the tangent leaves out its unsymmetric part.) Two changes of the iteration make
+//! reuse possible.
 //!
-//! First, s phi uses the rows J' of the factor, so that the resulting correction has no part along the motion. Second, multipliers grow by s
-//! (phi + J' d), which balances the correction, and not by s phi after the correction [P3 (2)]. The published growth contains the square of
-//! the correction. The next correction would have to remove it while s phi enforces it again. Once the rows have rotated, it acts along the
-//! motion.
+//! First, s phi uses the rows J' of the factor, so that the resulting correction has no part along the motion. Second, multipliers grow by
+//! s (phi + J' d), which balances the correction. The published growth, s phi after the correction [P3 (2)], contains the square of the
+//! correction. The next correction would have to remove that part while s phi enforces it again. When the rows have rotated, the part acts
+//! along the motion.
 
 use crate::equations::Equations;
 use mbs_core::implicit::Newton;
@@ -19,23 +20,25 @@ use mbs_core::model::Model;
 use mbs_core::team::set_product;
 use mbs_core::{Real, SpdSolver};
 
-/// Contraction of corrections up to which a factor is reused, where the iteration ends below the truncation error [-]. A new factor costs as
-/// much as two iterations, which contract to 0.04.
+/// Largest contraction of corrections with which a factor is reused, if the iteration ends below the truncation error [-]. The contraction
+/// is the ratio of two consecutive corrections. A new factor costs as much as two iterations, which contract to 0.04.
 const MAX_CONTRACTION: f64 = 0.2;
-/// Contraction of corrections up to which a factor is reused, where the tolerance alone ends the iteration [-]. A new factor removes nearly
-/// all of the error where only constraints act.
+/// Largest contraction of corrections with which a factor is reused, if the tolerance alone ends the iteration [-]. A new factor removes
+/// nearly all of the error where only constraints act.
 const MAX_CONTRACTION_TO_TOLERANCE: f64 = 1e-3;
-/// Relative change of a law's tangent up to which its factor is reused [-]. A change of a tenth makes corrections shrink to a tenth.
+/// Largest relative change of a law's tangent with which its factor is reused [-]. With a change of a tenth, each correction is about a
+/// tenth of the one before.
 const MAX_TANGENT_CHANGE: f64 = 0.1;
-/// Ratio to the largest tangent below which a law's tangent is not compared [-]. A change of it affects a correction by a thousandth.
+/// Ratio to the largest tangent below which a law's tangent is not compared [-]. A change of such a tangent affects a correction by at most
+/// a thousandth.
 const NEGLIGIBLE_TANGENT: f64 = 1e-3;
 
 /// Rule that decides when the matrix of a step is factored again.
 #[derive(Debug)]
 pub(crate) struct FactorReuse<T> {
-    /// Do multipliers grow by s (phi + J' d), in balance with the correction, instead of as published?
+    /// True if multipliers grow by s (phi + J' d), in balance with the correction, instead of as published.
     is_balanced: bool,
-    /// Contraction of corrections up to which a factor is reused [-].
+    /// Largest contraction of corrections with which a factor is reused [-].
     max_contraction: T,
     /// Sum of the corrections since the matrix was factored [m].
     pub(crate) since: T,
@@ -48,8 +51,8 @@ impl<T: Real> FactorReuse<T> {
         Self { is_balanced, max_contraction: T::from_f64(most), since: T::ZERO }
     }
 
-    /// May the next correction use the present factor? It may while the tangents of the laws are close to those that were factored, and while
-    /// corrections shrink. A rotation of the rows has little effect, because the residual takes s phi with the factored rows.
+    /// True if the next correction may use the present factor: the laws' tangents are close to those that were factored, and corrections
+    /// shrink. A rotation of the rows has little effect, because the residual contains s phi with the factored rows.
     pub(crate) fn can_reuse<S: SpdSolver<T>>(
         &self,
         newton: &Newton<T>,
@@ -66,8 +69,9 @@ impl<T: Real> FactorReuse<T> {
     }
 }
 
-/// Are the laws' tangents close to those in the factored matrix? They are not after a wheel has left the road, or after a contact with a
-/// stop. Stiffness and damping of lengths and angles are compared on one scale. The geometric stiffness of a tension is not compared.
+/// True if the laws' tangents are close to those in the factored matrix. For example, they are not after a wheel has left the road, or
+/// after a contact with a stop. Stiffness and damping of lengths and angles are compared on one scale. The geometric stiffness of a tension
+/// is not compared.
 fn has_like_laws<T: Real, S: SpdSolver<T>>(rule: &Rule<T>, equations: &Equations<T, S>) -> bool {
     let weight = |[stiffness, damping]: [T; 2]| stiffness + damping * rule.velocity;
     let (mut largest, mut change) = (T::ZERO, T::ZERO);

@@ -6,7 +6,7 @@
 //! publication 3: lambda extrapolated [P3 (3)], then T x = (T - J^T s J) x* - J^T s b   [P3 (11), (12)]
 //! ```
 //!
-//! These forms serve for comparison only. They lose their digits in small steps, for which [`index3`](crate::index3) is made.
+//! These forms serve for comparison only. They lose their digits in small steps; [`index3`](crate::index3) does not.
 
 mod projection;
 
@@ -22,7 +22,7 @@ use mbs_core::team::norm_inf;
 use mbs_core::{Real, SpdSolver};
 use projection::{Published, project};
 
-/// Iterations of a step at most [-]. The steps of the published tables need far fewer.
+/// Largest number of iterations of a step [-]. The steps of the published tables need far fewer.
 const MAX_ITERATIONS: u32 = 20;
 
 /// Options of a step as published.
@@ -34,7 +34,7 @@ pub struct Options<T> {
     pub alpha: T,
     /// Tolerance of the iterations, relative to the displacement by accelerations in a step [-].
     pub tolerance: T,
-    /// Iterations allowed in one step.
+    /// Largest number of iterations of a step.
     pub max_iterations: u32,
 }
 
@@ -104,7 +104,7 @@ fn published<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let unit = rule.acceleration;
         let mut violation = [norm_inf(model.team(), &w.terms().phi), T::ZERO, T::ZERO];
         if projection == Published::ByMass {
-            // W = M + J^T alpha J needs alpha itself; the weights of the iteration are alpha / a'
+            // W = M + J^T alpha J needs alpha itself. The weights of the iteration are alpha / a'.
             w.scale.weights.iter_mut().for_each(|s| *s *= unit);
         }
         for (k, level) in [(1, ConstraintLevel::Velocity), (2, ConstraintLevel::Acceleration)] {

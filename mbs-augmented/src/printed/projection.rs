@@ -22,7 +22,8 @@ pub(super) enum Published {
 /// T x = (T - J^T s J) x* - J^T s b,   that is   T (x - x*) = -J^T s (J x* + b)
 /// ```
 ///
-/// The first form solves for x itself and so loses cond(W) EPSILON of x each time. Returns the remaining violation, which has no limit.
+/// The first form solves for x itself and so loses cond(W) EPSILON of x each time. Returns the remaining violation, for which there is no
+/// limit.
 pub(super) fn project<T: Real, M: Model<T>, S: SpdSolver<T>>(
     mut p: Projector<'_, T, M, S>,
     by: Published,

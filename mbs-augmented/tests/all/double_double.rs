@@ -60,8 +60,8 @@ fn extrapolated(values: &[(u32, Pair)]) -> Pair {
     row.pop().expect("a value")
 }
 
-/// Exact position [m] and velocity [m/s] of the first crank's end at a time [s], by elliptic functions, while all cranks stay parallel. Each
-/// value follows the allowed error of the extrapolated one.
+/// Exact position [m] and velocity [m/s] of the first crank's end at a time [s], by elliptic functions, while all cranks are parallel. Each
+/// exact value comes after the allowed error of the extrapolated value.
 type Exact = (u32, [(&'static str, &'static str); 4]);
 
 /// Compares extrapolated runs with the exact values. `counts` are the numbers of steps per second.
@@ -83,12 +83,12 @@ fn hold(counts: &[u32], exact: &[Exact]) {
     }
 }
 
-/// At 1 s the cranks have passed their singular position once. No run has a step that ends close to it, where the result would be
-/// undetermined in the 15th digit.
+/// At 1 s the cranks have passed their singular position once. None of the runs has a step that ends close to that position. After such a
+/// step the result would be undetermined in the 15th digit.
 #[test]
 fn extrapolated_index_3_has_the_digits_of_the_elliptic_functions_on_two_four_bars() {
     let exact = [
-        // The exact values have 20 and 19 digits; the limits compare up to the third last one.
+        // The exact values have 20 and 19 digits. The limits compare all digits except the last two.
         ("1e-18", "-.19502030194943509364"),
         ("1e-17", "-.9807992056621738326"),
         ("1e-17", "-6.6766780368811580662"),
@@ -97,9 +97,9 @@ fn extrapolated_index_3_has_the_digits_of_the_elliptic_functions_on_two_four_bar
     hold(&[100, 200, 300, 400, 500, 600, 700, 800, 900, 1000], &[(1, exact)]);
 }
 
-/// After 10 s the cranks have passed ten singular positions. Runs with 300 and 700 steps per second are left out, since steps of these end close
-/// to one. The remaining step lengths are similar, so that extrapolation multiplies the last digits of each run by 2e6. The remaining terms
-/// of the series also grow with time.
+/// After 10 s the cranks have passed ten singular positions. Runs with 300 and 700 steps per second are left out, because some of their
+/// steps end close to a singular position. The remaining step lengths are similar, so that extrapolation multiplies the rounding error of
+/// each run by 2e6. The remaining terms of the series also grow with time.
 #[test]
 fn extrapolated_index_3_has_15_digits_after_ten_singular_positions() {
     let at_5 = [

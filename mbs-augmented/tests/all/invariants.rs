@@ -1,4 +1,5 @@
-//! Invariance of a motion under changes of axes, of the order of bodies or in a joint, and of precision; and bodies that stay at rest.
+//! Invariance of a motion under changes of axes, of the order of bodies, of the order of bodies in a joint, and of precision. Bodies at
+//! equilibrium stay at rest.
 
 use mbs_augmented::{Options, Workspace, index1, index3};
 use mbs_core::Real;
@@ -10,9 +11,9 @@ use mbs_testkit::retell::{reorder, turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, REDUNDANT, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{named_centres, scene, scene_in, solver, start, start_in};
 
-/// Growth of rounding errors over some hundred steps of a regular motion [m].
+/// Allowed growth of rounding errors over some hundred steps of a regular motion [m].
 const ROUNDING: f64 = 1e-9;
-/// Error that single precision may cause in half a second [m].
+/// Allowed error of single precision after half a second [m].
 const SINGLE: f64 = 1e-3;
 
 fn run<T: Real, const D: usize>(

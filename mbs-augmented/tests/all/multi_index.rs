@@ -1,4 +1,4 @@
-//! Changes between index-3 and index-1: the state stays consistent, and the change comes at the right step.
+//! Changes between index-3 and index-1: the state remains consistent, and the index changes at the right step.
 
 use mbs_augmented::{ConstraintIndex, IndexChange, Options, Workspace, index1, index3};
 use mbs_core::SpdSolver;
@@ -54,8 +54,8 @@ impl<const D: usize> Bench<D> {
     }
 }
 
-/// Checks that a change of index moves little. The multipliers of index-3 balance its iteration to 1e-10 of the accelerations. Masses of tens
-/// of kilograms and accelerations of a hundred metres per second squared multiply this error.
+/// Checks that a change of index changes the state only a little. The multipliers of index-3 balance its iteration to 1e-10 of the
+/// accelerations. Masses of tens of kilograms and accelerations of a hundred metres per second squared multiply this error.
 fn check_settling<const D: usize>(name: &str, h: f64, force: f64) {
     let mut bench = Bench::<D>::new(name);
     bench.index3(h, 200);
@@ -99,7 +99,7 @@ fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() 
     assert_eq!(index_at(&mut change, 0.9e-4, 0), (ConstraintIndex::One, true));
     assert_eq!(index_at(&mut change, 1.9e-4, 0), (ConstraintIndex::One, false));
     assert_eq!(index_at(&mut change, 2.1e-4, 0), (ConstraintIndex::Three, true));
-    // Repeated reductions lead to index-1 at any step; the index changes back only once the step grows again.
+    // Repeated reductions lead to index-1 at any step. The index changes back only after the step has grown again.
     assert_eq!(index_at(&mut change, 1e-3, 3), (ConstraintIndex::Three, false));
     assert_eq!(index_at(&mut change, 5e-4, 4), (ConstraintIndex::One, true));
     assert_eq!(index_at(&mut change, 5e-4, 0), (ConstraintIndex::One, false));

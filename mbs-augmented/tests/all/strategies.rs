@@ -49,8 +49,8 @@ fn a_correction_leaves_one_part_in_1_plus_c_whatever_mass_and_step() {
     }
 }
 
-/// With steps of 1/700 s one step ends close to a singular position. There the penalties of regular motion do not determine a multiplier, and
-/// corrections do not shrink.
+/// With steps of 1/700 s, one step ends close to a singular position. There the penalties of regular motion do not determine one
+/// multiplier, and corrections do not shrink.
 #[test]
 fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for_it() {
     let mut factor = 0.0_f64;
@@ -61,8 +61,8 @@ fn steps_that_end_next_to_a_singular_position_converge_with_penalties_raised_for
     assert!(factor > 1e3, "{factor:e}");
 }
 
-/// Relative difference of the energy error between the two strategies of projection, for the double pendulum at 1e-2 s [-]. The energy error
-/// is 4e-3 J. With a factor from before a large correction, it would differ by 6e-4 of that.
+/// Relative difference of the energy error between the two strategies of projection, for the double pendulum at 1e-2 s [-]. The energy
+/// error is 4e-3 J. With a factor from before a large correction, the energy error would differ by 6e-4 of its size.
 const SAME_ENERGY: f64 = 1e-6;
 
 #[test]
@@ -82,8 +82,8 @@ fn a_reused_factor_projects_as_an_exact_one_does() {
 }
 
 /// A step under constraints alone has one factor. It serves two corrections, the power iteration for the penalties and both projections. A
-/// factor for each correction, or an extra one for the projections, would make two factors. Multipliers that start from zero would need a
-/// third correction. On the two four-bars, velocities would need two sweeps if the first sweep were not scaled.
+/// second factor would show that corrections or projections need one of their own. A third correction would show that multipliers start
+/// from zero. On the two four-bars, velocities would need two sweeps if the first sweep were not scaled.
 #[test]
 fn a_step_under_constraints_alone_has_one_factor_two_corrections_and_a_sweep_at_each_level() {
     let counts = |name| run::<2>(&file(name), (1e-3, 100), &Options::index3(), |_, _, _| {});
@@ -110,7 +110,7 @@ fn a_vehicle_meets_a_bump_in_few_factors_and_stays_in_its_plane() {
 }
 
 /// Multipliers x with J^T x = 0 are not determined by the motion. Without the filter, extrapolation lets them grow to nearly all of the
-/// multipliers. They are measured as the part orthogonal, in the metric 1 / s, to the determined ones.
+/// multipliers. The test measures the part of the multipliers that is orthogonal, in the metric 1 / s, to the determined multipliers.
 #[test]
 fn multipliers_that_no_constraint_determines_do_not_grow() {
     let mut most = 0.0_f64;

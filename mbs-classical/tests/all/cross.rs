@@ -1,4 +1,4 @@
-//! Comparison with the augmented Lagrangian, which solves the same equations of a step in another way, and invariances of a motion.
+//! Comparison with the augmented Lagrangian, which solves the same equations of a step by another method, and invariances of a motion.
 
 use crate::common::{Index, Run, distance};
 use mbs_classical::{Options, StepError};
@@ -63,7 +63,7 @@ fn index3_moves_alike_with_every_effect_and_guide() {
         let (points, work) = augmented::<D>(&scene, 1e-3, 100);
         let off = distance(&run.points(), &points);
         assert!(off < NEAR, "{}: {off:e} m", scene.name);
-        // Here reactions balance the forces at the projected velocities, which changes the work by 8 to 20 dt^2.
+        // The classical reactions balance the forces at the projected velocities. This changes the work by 8 to 20 dt^2.
         assert!(
             (run.state.work - work).abs() < 4e-5,
             "{}: {} J, {work} J",
@@ -106,7 +106,7 @@ fn redundant_constraints_are_refused_by_name_and_nothing_changed() {
         let error = run.step(1e-3).expect_err("three conditions are redundant");
         let StepError::RankLost { row, pivot } = error else { panic!("{error}") };
         assert!(pivot.abs() < 1e-12, "{pivot:e}");
-        // Joints share points and axes, so the remaining rows belong to the three bodies of the loop.
+        // Joints share points and axes. So the redundant rows are rows of the three bodies of the loop, not of the joints.
         let owner = Model::<f64>::owner_of_row(&run.model, row as usize);
         assert!(matches!(owner, Owner::Body(0..=2)), "{owner:?}");
         assert_eq!(run.state, before);

@@ -43,7 +43,7 @@ fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Checks that the values match in pairs: each of `ours` has one of `theirs` within `near`.
+/// Checks that each of `ours` can be paired with one of `theirs`, with a difference of at most `near`.
 fn same(name: &str, ours: &[[f64; 2]], theirs: &[[f64; 2]], near: impl Fn([f64; 2]) -> f64) {
     assert_eq!(ours.len(), theirs.len(), "{name}");
     let mut left = theirs.to_vec();
@@ -56,10 +56,10 @@ fn same(name: &str, ours: &[[f64; 2]], theirs: &[[f64; 2]], near: impl Fn([f64; 
     }
 }
 
-/// Checks the eigenvalues by the characteristic polynomial: Π (λ − z) = det(A − z) on the circle |z| = 2 ‖A‖.
+/// Checks the eigenvalues λ by the characteristic polynomial: Π (λ − z) = det(A − z) on the circle |z| = 2 ‖A‖.
 ///
-/// Elimination without exchanges of rows is accurate there to machine precision. An error δ of λ changes the product by δ / |λ − z|. So all
-/// eigenvalues are right within about 50 n ε ‖A‖.
+/// On that circle, elimination without exchanges of rows is accurate to machine precision. An error δ of one λ changes the product by the
+/// factor 1 + δ / (λ − z). So all eigenvalues are correct within about 50 n ε ‖A‖.
 fn checked(name: &str, n: usize, a: &[f64]) {
     let ours = eigenvalues(n, a).unwrap_or_else(|| panic!("{name}, {n}: does not converge"));
     let conjugate = |i: usize| ours[i][1] == 0.0 || ours.contains(&[ours[i][0], -ours[i][1]]);
@@ -120,7 +120,7 @@ fn roots(n: usize, c: f64) -> Vec<[f64; 2]> {
     (0..n).map(root).collect()
 }
 
-/// Checks for the expected eigenvalues, within `share` times the largest one.
+/// Checks that the matrix has the expected eigenvalues, within `share` times the largest one.
 fn has(name: &str, n: usize, a: &[f64], expected: &[[f64; 2]], share: f64) {
     let ours = eigenvalues(n, a).unwrap_or_else(|| panic!("{name}, {n}: does not converge"));
     let largest = expected.iter().fold(0.0, |most: f64, x| most.max(x[0].hypot(x[1])));
@@ -200,7 +200,8 @@ fn stiff_and_soft_springs_on_the_same_coordinates_are_found() {
     }
 }
 
-/// Checks the eigenvalues ± i ω of undamped springs, as exact as K allows: δ(ω²) ≤ c ε ω²max, and δω = δ(ω²) / 2ω, at most √δ(ω²).
+/// Checks the eigenvalues ± i ω of undamped springs. The errors are limited by the rounding of K: δ(ω²) ≤ c ε ω²max, and δω is the smaller
+/// of δ(ω²) / 2ω and √δ(ω²).
 fn sprung(name: &str, squares: &[f64], k: impl Fn(usize, usize) -> f64) {
     let f = squares.len();
     let ours = eigenvalues(2 * f, &state_matrix(f, k, |_, _| 0.0));
@@ -252,11 +253,11 @@ fn repeated_and_defective_eigenvalues_are_found() {
         has("Jordan", n, &from_fn(n, |i, j| 2.0 * unit(i, j) + next(i, j)), &all(2.0), 1e-15);
         let lower = from_fn(n, |i, j| 2.0 * unit(i, j) + next(j, i));
         has("Jordan, lower", n, &lower, &all(2.0), 1e-15);
-        // after a rotation, an n-fold eigenvalue is determined within ε^(1/n) only
+        // a rounding error ε moves an n-fold eigenvalue of a full matrix by about ε^(1/n), so the tolerance is that large
         let x = random.square(n);
         let norm: f64 = x.iter().map(|x| x * x).sum();
         let jordan = |i: usize, j: usize| unit(i, j) + next(i, j);
-        // (1 − 2 x xᵀ) J (1 − 2 x xᵀ), x of the first column
+        // (1 − 2 x xᵀ) J (1 − 2 x xᵀ), with the first column of the random matrix as x
         let x: Vec<f64> = x[..n].to_vec();
         let length: f64 = x.iter().map(|x| x * x).sum();
         let q = |i: usize, j: usize| unit(i, j) - 2.0 * x[i] * x[j] / length;
@@ -290,7 +291,7 @@ fn cycles_and_companions_have_their_roots() {
             if i == 0 && j + 1 == n { c } else { f64::from(u8::from(i == j + 1)) }
         };
         has("root", n, &from_fn(n, far), &roots(n, c), 1e-13);
-        // weakly coupled pairs: the shifts from any two rows are ± 1
+        // weakly coupled pairs: the shifts from any two adjacent rows are ± 1
         if n.is_multiple_of(2) {
             let pair = |i: usize, j: usize| f64::from(u8::from(i / 2 == j / 2 && i != j));
             for eta in [1e-3, 1e-6, 1e-9] {
@@ -309,7 +310,7 @@ fn cycles_and_companions_have_their_roots() {
 
 #[test]
 fn motions_have_the_frequencies_of_their_springs() {
-    // a chain of masses between walls has   ω_k² = 2 k (1 − cos(k π / (f + 1))),   times k up to 1e10, no damping
+    // a chain of masses between walls has   ω_k² = 2 k (1 − cos(k π / (f + 1))),   with a factor k up to 1e10 and no damping
     for f in [1, 2, 3, 8, 25] {
         for k in [1e-4, 1.0, 1e10] {
             let spring = |i: usize, j: usize| match i.abs_diff(j) {

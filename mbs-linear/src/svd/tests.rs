@@ -41,7 +41,7 @@ impl Random {
         Matrix::from_fn(m, n, |i, j| all[(i, j)] * 10.0_f64.powf(power[j * m + i]))
     }
 
-    /// Returns a sparse matrix with a fifth of the entries, similar to the rows of joints.
+    /// Returns a sparse matrix: a fifth of its entries is nonzero, as in the rows of joints.
     fn sparse(&mut self, m: usize, n: usize) -> Matrix {
         let (all, kept) = (self.matrix(m, n), self.matrix(m, n));
         Matrix::from_fn(m, n, |i, j| if kept[(i, j)].abs() < 0.2 { all[(i, j)] } else { 0.0 })
@@ -77,7 +77,7 @@ fn checked(name: &str, a: &Matrix) {
     assert_eq!(thin.sigma, all.sigma, "{name}");
     assert_eq!(singular_values(a).expect("as with vectors"), all.sigma, "{name}");
 
-    // Uᵀ U = 1,   Vᵀ V = 1,   U Σ Vᵀ = A:   so Σ contains the singular values of A, as accurately as these three equations hold (Weyl)
+    // Uᵀ U = 1,   Vᵀ V = 1,   U Σ Vᵀ = A:   Σ then contains the singular values of A, as accurately as these three equations hold (Weyl)
     let within = rounding(a);
     for x in [&all.u, &all.v, &thin.u, &thin.v] {
         assert!(is_orthogonal(x, within), "{name}: orthogonal");

@@ -137,8 +137,8 @@ fn a_chain_in_space_hangs_down() {
 
 #[test]
 fn a_tree_of_springs_settles_where_nothing_grows() {
-    // The tangent of its torsion springs leaves out the rotation of their axes, so that its signs may show instability wrongly. So the
-    // eigenvalues of the equations of motion are checked instead.
+    // The tangent of the torsion springs in this scene leaves out the rotation of their axes. So the estimate of stability may be wrong.
+    // The test therefore checks the eigenvalues of the equations of motion.
     let mut case = Case::<3>::new(include_str!("../../../scenes/tree-30.toml"));
     let found = case.settle().unwrap_or_else(|e| panic!("{e}"));
     assert!(found.relative < 1e-12, "{found:?}");
@@ -186,7 +186,7 @@ fn the_search_does_not_go_through_a_stop() {
     }
 }
 
-/// A slide in space on one spring without gravity: all forces vanish together, so that none remains to compare with.
+/// A slide in space on one spring without gravity: all forces vanish together, so no other force remains for comparison.
 const SLIDE: &str = include_str!("../../../mbs/tests/field/05-slide-on-a-spring.toml");
 
 #[test]
@@ -224,7 +224,8 @@ fn near_the_start_newtons_method_finds_what_no_search_downwards_does() {
 
 #[test]
 fn the_search_does_not_slip_past_a_stop_beside_its_way() {
-    // The pad's point on the ground is 1 mm and 0.1 m beside the block's path, so that its force rotates as the block comes down.
+    // The pad's point on the ground is 1 mm or 0.1 m beside the block's path, so that the direction of its force changes as the block
+    // descends.
     for aside in [0.001, 0.1] {
         for height in [0.0, 0.001, 0.3, 7.0] {
             let text = PAD.replace(

@@ -113,7 +113,8 @@ fn spring_mass_and_damper_below_and_above_critical_damping() {
 
 #[test]
 fn a_thin_rod_on_a_spring_beside_its_line_swings_as_its_energy_says() {
-    // The spring holds the rod horizontal, attached 0.1 m above its line. A direction without mass transmits the spring's force there.
+    // The spring holds the rod horizontal. It is attached 0.1 m above the rod's axis, at a direction without mass, which transmits its
+    // force.
     // V'' = k l'^2 + F l'',   l' = -1/2,   l l'' = 0.1^2 + 0.5^2 + 0.9 0.1 - l'^2,   I = m/3
     let (m, k, g) = (6.0_f64, 1000.0, 9.81);
     let force = m * g;
@@ -254,7 +255,7 @@ fn a_cart_that_drives_has_the_modes_of_one_that_stands() {
         let values = case.eigenvalues(instant);
         let last = values.last().expect("there are modes");
         assert!(last.0.abs() < SAME && near(last.1, w), "{instant:?}: {values:?}");
-        // Along the rail the eigenvalue is zero twice: the computed values are rounding errors, and `noise` covers them.
+        // Along the rail the eigenvalue is zero twice. The computed values are rounding errors, and `noise` is an upper bound of them.
         let zero = (1e3 * linear.noise).sqrt();
         assert!(zero < 1e-2 * w, "{zero}");
         assert!(values[..values.len() - 1].iter().all(|x| x.0.hypot(x.1) < zero), "{values:?}");
@@ -272,7 +273,7 @@ fn a_mechanism_that_turns_says_that_its_eigenvalues_hold_for_an_instant() {
 
 #[test]
 fn a_singular_position_has_no_linearisation() {
-    // The parallelogram is flat, where its two branches cross and most tangent directions violate the constraints.
+    // The parallelogram is flat. There its two branches cross, and a motion in most tangent directions violates the constraints.
     let text = include_str!("../../../scenes/four-bar.toml")
         .replace("[0.0, 1.0]", "[1.0, 0.0]")
         .replace("[1.0, 1.0]", "[2.0, 0.0]")

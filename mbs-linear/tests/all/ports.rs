@@ -66,7 +66,7 @@ fn a_force_on_a_sprung_mass_accelerates_it_by_its_inverse_mass() {
     let (linear, ports) = linearised(&mut case, Instant::Rest, &[0, 1], measure);
     assert_eq!((linear.n_freedoms, ports.values.len()), (1, 3));
     let to_x = ports.outputs[0];
-    // z = x sqrt(m), and x'' = -k/m x - c/m x' + u/m; orthogonal to the slide nothing moves
+    // z = x sqrt(m), and x'' = -k/m x - c/m x' + u/m; nothing moves orthogonal to the slide
     assert_near("dx/dz", to_x.abs(), 0.5_f64.sqrt());
     assert_near("dx''/dz", ports.outputs[2], -25.0 * to_x);
     assert_near("dx'/dz'", ports.outputs[4], to_x);

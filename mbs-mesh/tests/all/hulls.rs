@@ -28,7 +28,7 @@ fn a_box_full_of_points_in_planes_and_lines_is_a_box() {
 
 #[test]
 fn a_turned_and_shifted_box_is_the_same_box() {
-    // three times a rotation: the rows have a length of three
+    // three times a rotation matrix: the rows have a length of three
     let turn = [[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]];
     let at = [5.0, -2.0, 0.0];
     let points = grid(6).into_iter().map(|x| {

@@ -49,11 +49,11 @@ pub(super) struct Handle(*const ());
 unsafe impl Send for Handle {}
 
 impl Handle {
-    /// Runs the job and marks it done.
+    /// Runs the job and marks it as done.
     pub(super) fn run(self) {
         // SAFETY: points 1 and 5: the job is alive until `done` is stored, which is the last action here.
         let job = unsafe { &*self.0.cast::<Job<'_>>() };
-        // SAFETY: point 2: the owner touches nothing but `done` meanwhile, and there is one runner.
+        // SAFETY: point 2: until then the owner accesses nothing but `done`, and there is one runner.
         let (work, panic) = unsafe { (&mut *job.work.get(), &mut *job.panic.get()) };
         *panic = catch_unwind(AssertUnwindSafe(work)).err();
         job.done.store(true, Ordering::Release);
@@ -72,7 +72,7 @@ impl Done<'_> {
 
 impl<'a> Job<'a> {
     /// Makes a job of `work`, passes its handle to `lend`, and returns when the job is done. `lend` must ensure that some thread runs the
-    /// handle, and should return after that. Its return value is passed on, and so is a panic of `work` or of `lend`.
+    /// handle, and should return after that. Returns the value that `lend` returns. A panic of `work` or of `lend` continues in the caller.
     pub(super) fn with_handle<R>(work: Work<'a>, lend: impl FnOnce(Handle, Done<'_>) -> R) -> R {
         let job = Self {
             work: UnsafeCell::new(work),

@@ -1,5 +1,5 @@
-//! Teams of threads for the work of one step. [`Pool`] uses rayon, [`ThreadTeam`] a queue of crossbeam, and [`Threads`] is a thread team or
-//! the caller's thread, chosen at run time.
+//! Teams of threads for the work of one step. [`Pool`] uses rayon, and [`ThreadTeam`] a queue of crossbeam. [`Threads`] is chosen at run
+//! time: a thread team, or the caller's thread alone.
 //!
 //! All of them give the same bits, because the division of work does not depend on the team ([`mbs_math::team`]).
 
@@ -23,7 +23,7 @@ pub enum Threads {
 }
 
 impl Threads {
-    /// Creates the caller's thread alone for `n` = 1 (or 0), a [`ThreadTeam`] of `n` threads for more.
+    /// Creates a team: the caller's thread alone for `n` = 1 (or 0), or a [`ThreadTeam`] of `n` threads for more.
     ///
     /// # Errors
     /// When the operating system gives no threads.

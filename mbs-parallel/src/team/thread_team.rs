@@ -1,11 +1,11 @@
-//! A team with one queue of forks. Threads wait actively for a while, so that another thread takes work in less than a microsecond.
+//! A team with one queue of forks. Threads wait actively for a while, so that another thread starts queued work in less than a microsecond.
 //!
 //! ```text
 //! spare = threads without work - forks in the queue           a fork is made only while spare > 0
 //! ```
 //!
-//! Unless another thread waits, a thread does both pieces of a fork one after the other. It then continues with the numbers in its cache, and
-//! such a fork costs a nanosecond.
+//! If no other thread waits, a thread does both parts of a fork one after the other. The numbers are then still in its cache, and such a
+//! fork costs a nanosecond.
 
 use super::job::{Handle, Job};
 use crossbeam_queue::ArrayQueue;
@@ -17,17 +17,17 @@ use std::sync::atomic::{AtomicBool, AtomicIsize, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Forks that wait at the same time, at most. A fork beyond that is run by the thread that made it. Chosen, not tuned.
+/// Largest number of forks that wait in the queue. If the queue is full, the thread that makes a fork runs both parts. Chosen, not tuned.
 const PLACES: usize = 1024;
-/// Time for which a thread without work waits actively: longer than the time between two steps.
+/// Time for which a thread without work waits actively. It is longer than the time between two steps.
 const AWAKE: Duration = Duration::from_micros(200);
-/// Longest sleep of a thread. No result depends on its wake-up, because a thread that forks works too.
+/// Longest sleep of a thread. No result depends on when it wakes up, because a thread that forks also does the work itself.
 const ASLEEP: Duration = Duration::from_millis(20);
 
 /// The caller's thread and others that help it, until the last clone is dropped.
 ///
-/// A thread team suits steps that follow one another closely, since threads use processor time while they wait actively. For occasional work
-/// use [`Pool`](super::Pool).
+/// A thread team suits steps that follow one another closely, because its threads use processor time while they wait actively. For
+/// occasional work use [`Pool`](super::Pool).
 #[derive(Debug, Clone)]
 pub struct ThreadTeam {
     shared: Arc<Shared>,
@@ -44,7 +44,7 @@ struct Shared {
     n_asleep: CachePadded<AtomicUsize>,
 }
 
-/// Threads that help the caller, and their wakers.
+/// Threads that help the caller, and the handles that wake them.
 #[derive(Debug)]
 struct Hands {
     shared: Arc<Shared>,
@@ -83,7 +83,7 @@ impl Drop for Hands {
         self.shared.is_over.store(true, Ordering::Release);
         self.wakers.iter().for_each(Unparker::unpark);
         for thread in self.threads.drain(..) {
-            // Jobs catch their panics, so the thread itself cannot have panicked.
+            // Jobs catch their panics, so the thread cannot have panicked.
             let _ = thread.join();
         }
     }
@@ -149,7 +149,7 @@ impl Team for ThreadTeam {
     }
 }
 
-/// A piece of work, then its result. The type is small code, because there is a copy for each kind of work.
+/// A part of the work before it is run, then its result. The type has little code, because each kind of work has a copy of it.
 enum Piece<F, R> {
     Waits(F),
     Runs,
@@ -182,7 +182,7 @@ impl ThreadTeam {
             // The queued work must be run even if `a` panics.
             let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(a));
             if !done.is_done() {
-                // From here on this thread has no work either.
+                // From here on this thread also has no work.
                 shared.spare.fetch_add(1, Ordering::Relaxed);
                 let backoff = Backoff::new();
                 while !done.is_done() {

@@ -1,4 +1,4 @@
-//! Every policy on a scripted clock: the durations of tasks are given, the instants are checked, and no real time passes.
+//! Every policy on a scripted clock. The durations of tasks are given, and the tests check the times. No real time passes.
 
 use crate::common::{Script, at, ms, us};
 use mbs_realtime::{Action, Overrun, Pace, PaceError, Pacer, Recovery};
@@ -67,7 +67,7 @@ fn finish_publishes_late_results_at_once_and_catches_the_debt_up() {
     );
     assert!(report.log.iter().all(|e| e.action == Action::Finished && e.level == 0));
     assert_eq!(report.log[1].at, ms(32));
-    // Only the first begin was not delayed by a task before.
+    // Previous tasks delayed all begins except the first. The jitter does not include such delays.
     assert_eq!(report.jitter.max, Duration::ZERO);
     assert!((report.margin.least + 14e-3).abs() < 1e-12);
 }
@@ -137,7 +137,7 @@ fn tasks_that_are_in_time_but_heavy_do_not_bring_a_level_back() {
 
 #[test]
 fn a_debt_alone_does_not_degrade_until_patience_ends() {
-    // A task of 41 ms causes a delay of 31 ms; the tasks after it are late but short. The patience is three tasks.
+    // A task of 41 ms causes a delay of 31 ms. The tasks after it are late but short. The patience is three tasks.
     let (script, _) = run(pace(Overrun::Degrade), 4, &[41, 2, 2, 2, 2, 2]);
     assert_eq!(script.levels, [0, 1, 1, 1, 1, 1]);
     // Tasks of a whole period each do not reduce the delay: the level goes down after the fourth.
@@ -150,11 +150,11 @@ fn a_rise_that_does_not_last_doubles_the_quiet_time() {
     let up = 4;
     let mut durations = vec![12];
     durations.extend(vec![2; up]); // tasks 1 to 4 on level 1, then up
-    durations.push(12); // task 5 on level 0: late at once
-    durations.extend(vec![2; 2 * up]); // eight quiet ones this time
-    durations.extend(vec![2; 2 * up]); // the rise lasts: proved
+    durations.push(12); // task 5 on level 0 is late at once
+    durations.extend(vec![2; 2 * up]); // now eight quiet tasks are needed
+    durations.extend(vec![2; 2 * up]); // the rise lasts as long as the quiet time
     durations.push(12);
-    durations.extend(vec![2; up + 1]); // four again
+    durations.extend(vec![2; up + 1]); // four quiet tasks are enough again
     let (script, _) = run(pace(Overrun::Degrade), 2, &durations);
     let mut expected = vec![0];
     expected.extend([1; 4]);

@@ -1,4 +1,4 @@
-//! Sentence below each diagram, made from its numbers.
+//! Sentences below the diagrams, made from the numbers in each diagram.
 
 use super::text::{seconds, short};
 use mbs_study::compare::results::{Comparison, ConvergenceMap, MethodRuns, RunEntry, Status};

@@ -1,4 +1,4 @@
-//! Page of a comparison: the work-precision diagram and the ranks are shown, all else is folded.
+//! Page of a comparison: the work-precision diagram and the ranks are shown, all other parts are folded.
 
 use super::captions;
 use super::plots::{looks, panels};
@@ -8,7 +8,7 @@ use crate::table::Section;
 use mbs_study::compare::results::Comparison;
 use serde_json::json;
 
-/// Explanation of the look of lines.
+/// Explanation of the marks, colours and dashes of lines.
 const KEY: &str = "Mark and colour: integrator; dash: formulation; filled: fixed steps, hollow: controlled steps; thin: single precision. \
                    Click a name to hide or show its lines in all diagrams.";
 

@@ -11,7 +11,8 @@ const DIGITS: usize = 5;
 /// Number of colours, marks and dashes in the style of the page [-].
 const KINDS: usize = 6;
 
-/// Returns the looks of all methods. Lines in single precision are hidden at first if there are lines in double precision.
+/// Returns the look (mark, colour and dash) of each method. Lines in single precision are hidden at first if there are lines in double
+/// precision.
 pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
     let has_f64 = comparison.methods.iter().any(|m| m.precision == "f64");
     let [mut integrators, mut formulations] = [const { Vec::<&str>::new() }; 2];
@@ -30,7 +31,7 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
         Look {
             name: m.name.clone(),
             kind: place(&integrators, &m.integrator) % KINDS,
-            // the last formulation, recursive, has most lines: these are solid
+            // the last formulation, recursive, has the most lines, so its lines are solid
             dash: (formulations.len() - 1 - place(&formulations, &m.formulation)) % KINDS,
             is_filled: is_fixed,
             is_thin: is_single,
@@ -127,7 +128,7 @@ fn against_step(comparison: &Comparison, value: Value) -> Diagram {
     let lines = comparison.methods.iter().enumerate().map(|(look, m)| DiagramLine {
         look,
         points: points(m, |run| Some(run.mean_step), value),
-        // a run that failed in its first step has no mean step; a run with fixed steps has the step of its setting
+        // a run that failed in its first step has no mean step, but a run with fixed steps has the step of its setting
         failed: failed(m, |run| if m.control == "fixed" { run.setting } else { run.mean_step }),
         note: String::new(),
     });

@@ -5,7 +5,7 @@ use mbs::record::Provenance;
 use mbs_scene::format::{rounded, significant};
 use mbs_study::compare::results::{Comparison, MethodRuns, RankLevel, RunEntry, Status};
 
-/// Failures of a method that are listed in the terminal, at most [-]. Chosen, not tuned.
+/// Largest number of failures of a method that are listed in the terminal [-]. Chosen, not tuned.
 const MOST_SETTINGS: usize = 4;
 
 /// Returns the tables of a comparison.
@@ -150,7 +150,7 @@ impl Tables<'_> {
         section
     }
 
-    /// Returns the table of failures with their reasons; equal reasons of a method are in one row.
+    /// Returns the table of failures with their reasons. Failures of a method with the same reason are in one row.
     pub(super) fn failures(&self) -> Option<Section> {
         let mut rows: Vec<Vec<String>> = Vec::new();
         for method in &self.0.methods {

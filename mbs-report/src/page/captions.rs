@@ -1,4 +1,4 @@
-//! Sentence below each plot.
+//! Sentences below the plots of a page, made from the numbers in each plot.
 
 use mbs::record::{EnergySeries, IterationSeries, StepSeries, ViolationSeries};
 use mbs_scene::format::significant;
@@ -68,7 +68,7 @@ pub(super) fn channel(names: &[&str], unit: &str) -> String {
     format!("{verb} {} over time [{unit}].", names.join(", "))
 }
 
-/// Returns time and size of the largest absolute value.
+/// Returns the time and the size of the largest absolute value.
 fn peak(times: &[f64], values: &[f64]) -> Option<(f64, f64)> {
     let pairs = times.iter().zip(values).filter(|(_, value)| value.is_finite());
     pairs.map(|(t, x)| (*t, x.abs())).max_by(|(_, a), (_, b)| a.total_cmp(b))

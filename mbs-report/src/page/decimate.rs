@@ -1,12 +1,12 @@
-//! Thinning of series that keeps their peaks.
+//! Thinning of series, in which the peaks remain.
 
-/// Points of a line at most [-]: more than a screen has columns for it.
+/// Largest number of points of a line [-]. A screen has fewer columns for a line.
 pub(super) const MAX_POINTS: usize = 1500;
 
-/// Returns the indices of the points to keep, at most `most`: the first, the last, and the smallest and largest value in each of `most/2 - 1`
-/// intervals.
+/// Returns the indices of at most `most` points to keep. They are the first, the last, and the smallest and largest value in each of
+/// `most/2 - 1` intervals.
 ///
-/// One value that is not finite is kept in each interval, so that gaps remain visible. Cost: one pass.
+/// In each interval one value that is not finite is also kept, so that gaps remain visible. Cost: one pass.
 pub(super) fn kept(values: &[f64], most: usize) -> Vec<usize> {
     if values.len() <= most {
         return (0..values.len()).collect();
@@ -29,7 +29,7 @@ pub(super) fn kept(values: &[f64], most: usize) -> Vec<usize> {
     indices
 }
 
-/// Intervals of an upper envelope [-]. Chosen, not tuned.
+/// Number of intervals of an upper envelope [-]. Chosen, not tuned.
 const EDGE: usize = 240;
 
 /// Returns the indices of the first value, of the largest value in each of 240 intervals, and of the last value.
@@ -47,7 +47,7 @@ pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
     indices
 }
 
-/// Returns evenly distributed indices, at most `most`, including the first and the last.
+/// Returns at most `most` evenly distributed indices, including the first and the last.
 pub(super) fn spread(n: usize, most: usize) -> Vec<usize> {
     let most = most.max(2);
     if n <= most {

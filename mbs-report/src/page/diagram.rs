@@ -10,7 +10,7 @@ pub(crate) struct Look {
     /// Index of the colour and of the mark.
     pub(crate) kind: usize,
     pub(crate) dash: usize,
-    /// Are the marks of the line filled?
+    /// True if the marks of the line are filled.
     pub(crate) is_filled: bool,
     pub(crate) is_thin: bool,
     pub(crate) is_shown: bool,
@@ -31,26 +31,26 @@ pub(crate) struct Diagram {
     pub(crate) across: Vec<(f64, &'static str)>,
     /// Vertical lines of the diagram: value and name.
     pub(crate) upright: Vec<(f64, &'static str)>,
-    /// Side of the rail for failed runs: `top` or `right`; empty without a rail.
+    /// Side of the diagram with a strip for failed runs: `top` or `right`; empty without a strip.
     pub(crate) rail: &'static str,
-    /// Is the line drawn without marks, for a histogram?
+    /// True if the line is drawn without marks, as in a histogram.
     pub(crate) is_plain: bool,
-    /// Are marks drawn without a line?
+    /// True if marks are drawn without a line.
     pub(crate) is_scatter: bool,
-    /// Are the horizontal and the vertical axis logarithmic?
+    /// True for each axis that is logarithmic: the horizontal, then the vertical axis.
     pub(crate) is_log: [bool; 2],
-    /// Is the diagram as wide as the page, with the keys of all lines?
+    /// True if the diagram is as wide as the page and has the keys of all lines.
     pub(crate) has_keys: bool,
 }
 
 /// Points of a line with one look.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct DiagramLine {
-    /// Index of its look.
+    /// Index of the line's look.
     pub(crate) look: usize,
     /// Points of the line: x, y, and the text of the tooltip.
     pub(crate) points: Vec<(f64, f64, String)>,
-    /// Failed runs: x or y along the rail, and the reason.
+    /// Failed runs: the x or y value along the strip, and the reason.
     pub(crate) failed: Vec<(f64, String)>,
     /// Note for the line in the legend.
     pub(crate) note: String,

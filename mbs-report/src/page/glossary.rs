@@ -6,7 +6,7 @@ use core::fmt::Write;
 /// Glossary as Markdown: one paragraph for each term, with the term in bold at its beginning.
 const GLOSSARY: &str = include_str!("glossary.md");
 
-/// Writes the terms that occur in a part of a page as a folded list; nothing if no term occurs.
+/// Writes the glossary terms that occur in a part of a page as a folded list. Writes nothing if no term occurs.
 pub(super) fn write_used(body: &str, out: &mut String) {
     let text = plain(body);
     let paragraphs = GLOSSARY.split("\n\n").filter_map(|paragraph| {
@@ -40,7 +40,7 @@ fn plain(html: &str) -> String {
     pieces.collect::<Vec<_>>().join(" ").to_lowercase()
 }
 
-/// Does a text contain a word or its plural?
+/// True if a text contains a word or its plural.
 fn has_word(text: &str, word: &str) -> bool {
     let is_letter = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '-');
     text.match_indices(word).any(|(at, _)| {
@@ -98,11 +98,11 @@ mod tests {
         for term in ["Constraints", "Redundant", "index-3, index-1"] {
             assert!(found.contains(&format!("<dt>{term}</dt>")), "{term}: {found}");
         }
-        // names of classes and parts of words do not count
+        // words in class names and parts of words do not count
         assert_eq!(found.matches("<dt>").count(), 3, "{found}");
         assert!(!found.contains("**") && !found.contains('`') && !found.contains(".md"));
         assert_eq!(used("<p>nothing of it</p>"), "");
-        // the whole glossary has six kilobytes at most
+        // the whole glossary has at most six kilobytes
         assert!(used(&inline(GLOSSARY)).len() < 6000, "{}", used(&inline(GLOSSARY)).len());
     }
 }

@@ -1,4 +1,4 @@
-//! Meshes of a page. Each file is read once, and vertices are merged where there are too many triangles.
+//! Meshes of a page. Each file is read once. If there are too many triangles, vertices are merged.
 
 use super::pack::{Pack, ends};
 use mbs::record::{RecordedMotion, ShapeForm};
@@ -8,18 +8,19 @@ use serde_json::{Value, json};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-/// Triangles of a page at most [-], because all are drawn in every picture. They need a hundred kilobytes.
+/// Largest number of triangles on a page [-]. All of them are drawn in every picture. They need a hundred kilobytes.
 const MOST_TRIANGLES: usize = 20_000;
-/// Fraction of these triangles at which the search for a cell size ends [-]. Chosen, not tuned.
+/// The search for a cell size ends if the number of triangles is at least this fraction of the largest number [-]. Chosen, not tuned.
 const ENOUGH: f64 = 0.8;
-/// Cell sizes that are tried [-]. Chosen, not tuned.
+/// Number of cell sizes that are tried [-]. Chosen, not tuned.
 const TRIALS: usize = 6;
-/// Steps along the longest side of a mesh [-]: 0.06 mm for a metre. Most differences of vertices then need two bytes.
+/// Number of steps along the longest side of a mesh [-]. A step is 0.06 mm for a mesh of one metre. Most differences of vertices then need
+/// two bytes.
 const STEPS: f64 = 16_383.0;
-/// Names of files in a note, at most [-].
+/// Largest number of file names in a note [-].
 const NAMED: usize = 3;
 
-/// Meshes of a motion, and notes on them for the reader of the page.
+/// Meshes of a motion, and notes on these meshes for the reader of the page.
 #[derive(Debug, Default)]
 pub(super) struct PageMeshes {
     /// Meshes in the form in which they are drawn.
@@ -75,7 +76,7 @@ impl PageMeshes {
         self.notes.push(format!("Not drawn, since it cannot be read: {count}: {named}{more}."));
     }
 
-    /// Merges vertices in a common cell until there are few enough triangles. `scales` are the lengths of the files' units [m].
+    /// Merges the vertices in each cell of a grid until there are few enough triangles. `scales` are the lengths of the files' units [m].
     fn simplify(&mut self, scales: &[f64], uses: &[usize]) {
         let drawn = |list: &[TriangleMesh]| -> usize {
             list.iter().zip(uses).map(|(mesh, uses)| mesh.triangles.len() * uses).sum()
@@ -125,13 +126,13 @@ impl PageMeshes {
         }
     }
 
-    /// Returns the index of a file's mesh, if it has triangles to draw.
+    /// Returns the index of a file's mesh. Returns `None` if the mesh has no triangles to draw.
     pub(super) fn number(&self, file: &str) -> Option<usize> {
         let number = *self.by_file.get(file)?;
         (!self.list[number].triangles.is_empty()).then_some(number)
     }
 
-    /// Packs the meshes: columns of vertices, and of the vertex indices of their triangles.
+    /// Packs the meshes into columns: the coordinates of vertices, and the vertex indices of the triangles.
     pub(super) fn packed(&self, pack: &mut Pack) -> Vec<Value> {
         let packed = self.list.iter().map(|mesh| {
             let column =
@@ -151,7 +152,7 @@ impl PageMeshes {
     }
 }
 
-/// Returns the name of a file without its folders, because a page is given to others.
+/// Returns the name of a file without its folders, because other persons may get the page.
 fn name(file: &str) -> String {
     Path::new(file)
         .file_name()

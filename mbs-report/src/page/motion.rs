@@ -7,16 +7,16 @@ use super::section::PageSection;
 use mbs::record::{DrawnShape, N_POSE, RecordedMotion, ShapeForm};
 use serde_json::{Value, json};
 
-/// Step of packed positions, relative to the scene's length [-]: a hundredth of a millimetre for a metre. A step relative to the length of
-/// the path would show as jitter where the view follows a vehicle.
+/// Step of packed positions, relative to the scene's length [-]. It is a hundredth of a millimetre for a scene of one metre. If the step
+/// were relative to the length of the path, the rounding would be visible where the view follows a vehicle.
 const PLACE_STEP: f64 = 1e-5;
 /// Step of the components of a quaternion [-]: about a tenth of a milliradian.
 const TURN_STEP: f64 = 1.0 / 16_384.0;
 /// Step of packed times, relative to the duration of the run [-].
 pub(super) const TIME_STEP: f64 = 1e-6;
 
-/// Returns the sections of a page that show the start of a mechanism with names, and the packed data for the view. Notes come first. `None`
-/// if there is nothing to draw.
+/// Returns the sections of a page that show the start of a mechanism with names, and the packed data for the view. Notes are the first
+/// section. Returns `None` if there is nothing to draw.
 pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, String)> {
     let mut first = motion.clone();
     first.times.truncate(1);
@@ -30,7 +30,7 @@ pub(crate) fn still_view(motion: &RecordedMotion) -> Option<(Vec<PageSection>, S
     Some((sections.collect(), pack.text(json!({ "motion": motion }))))
 }
 
-/// Packs a motion with at most `most` pictures, with or without names of bodies and joints; `None` if there is nothing to draw.
+/// Packs a motion with at most `most` pictures, with or without names of bodies and joints. Returns `None` if there is nothing to draw.
 pub(super) fn packed(
     (motion, meshes): (&RecordedMotion, &PageMeshes),
     (most, is_named): (usize, bool),
@@ -80,7 +80,7 @@ pub(super) fn packed(
     }))
 }
 
-/// Returns the drawn shapes: meshes by their indices, and other shapes in place of meshes that cannot be read.
+/// Returns the drawn shapes. Meshes are given by their indices. Other shapes replace meshes that cannot be read.
 fn shapes(motion: &RecordedMotion, meshes: &PageMeshes) -> Vec<Value> {
     let number = |shape: &DrawnShape| match &shape.form {
         ShapeForm::Mesh { file, .. } => meshes.number(file),

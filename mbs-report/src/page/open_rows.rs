@@ -1,4 +1,4 @@
-//! A table whose rows can be opened without scripts: each row contains another table.
+//! A table with rows that open without scripts. Each row contains another table.
 
 use crate::table::Section;
 use crate::text::escape;
@@ -9,7 +9,7 @@ use core::fmt::Write;
 pub(crate) struct OpenRows {
     /// Names of the columns.
     pub(crate) head: Vec<String>,
-    /// Cells of each row, and the table within it.
+    /// Cells of each row, and the table that the row contains.
     pub(crate) rows: Vec<(Vec<String>, Section)>,
     pub(crate) caption: String,
 }

@@ -1,11 +1,11 @@
-//! Sections of the page of a real-time run before the motion: margins and the ladder.
+//! Sections before the motion on the page of a real-time run: margins and the ladder of levels.
 
 use super::section::PageSection;
 use crate::table::Section;
 use mbs::record::{Degraded, RealtimeSummary};
 use mbs_scene::format::{duration, few};
 
-/// Index of the ladder's column with bars: the fraction of the periods at each level.
+/// Index of the column with bars in the table of the ladder: the fraction of the periods at each level.
 const PERIODS: usize = 3;
 
 /// Returns the sections on the deadline, on the margins, and on the levels of the run.

@@ -9,9 +9,9 @@
 
 use miniz_oxide::deflate::compress_to_vec;
 
-/// Compression level of deflate [-]: the default. The highest level takes three times as long for one percent less.
+/// Compression level of deflate [-]. It is the default. The highest level takes three times as long for one percent less data.
 const LEVEL: u8 = 6;
-/// Number of steps in the range of a drawn column [-]: more than a screen resolves.
+/// Number of steps in the range of a drawn column [-]. It is more than a screen resolves.
 const STEPS: f64 = 65_534.0;
 /// Whole number that stands for a value that is not finite [-].
 const GAP: i64 = 65_535;
@@ -20,14 +20,14 @@ const GAP: i64 = 65_535;
 #[derive(Debug, Default)]
 pub(crate) struct Pack {
     bytes: Vec<u8>,
-    /// Rows, columns and planes of each group.
+    /// Numbers of rows, columns and planes of each group.
     groups: Vec<[usize; 3]>,
 }
 
 /// Position of a column in a pack, and its scale: `low + step * whole`. The whole number 65535 is a gap in columns that have gaps.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub(crate) struct Column {
-    /// Index of its group.
+    /// Index of the column's group.
     group: usize,
     /// Index of the column in the group.
     column: usize,
@@ -77,7 +77,7 @@ impl Pack {
         scales.into_iter().enumerate().map(column).collect()
     }
 
-    /// Returns the pack as text, after a header that lists the groups under `groups`.
+    /// Returns the pack as text. Its header is the given one, with a list of the groups under `groups`.
     pub(crate) fn text(&self, mut header: serde_json::Value) -> String {
         header["groups"] = serde_json::json!(self.groups);
         let header = header.to_string();
@@ -103,7 +103,7 @@ pub(super) fn ends(values: &[f64]) -> Option<[f64; 2]> {
     Some(finite.fold([first, first], |[low, high], x| [low.min(x), high.max(x)]))
 }
 
-/// Returns the smallest finite value, and 1/65534 of the range.
+/// Returns the smallest finite value, and the step, which is 1/65534 of the range.
 fn scale(column: &[f64]) -> (f64, f64) {
     let Some([low, high]) = ends(column) else { return (0.0, 1.0) };
     let step = high / STEPS - low / STEPS;

@@ -11,18 +11,20 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Lines of a panel at most [-], because there are no more distinct colours.
+/// Largest number of lines of a panel [-]. There are no more distinct colours.
 const MAX_LINES: usize = 6;
-/// Ratio of two ranges above which lines get separate panels [-], because the smaller line would look flat.
+/// Largest ratio of two ranges in one panel [-]. If the ratio is larger, lines get separate panels, because the smaller line would look
+/// flat.
 const MAX_RATIO: f64 = 20.0;
-/// Range below which a channel counts as constant, relative to the largest size among channels of its unit [-]: rounding errors.
+/// A channel counts as constant if its range is below this fraction of the largest size among channels of its unit [-]. Such changes are
+/// rounding errors.
 const STILL: f64 = 1e-9;
 
 /// Plots of a run in the form in which a pack contains them.
 #[derive(Debug, Default)]
 pub(super) struct Panels {
     panels: Vec<Panel>,
-    /// Points of a line at most [-].
+    /// Largest number of points of a line [-].
     most: usize,
     /// Times that several lines have in common, with their packed column.
     shared: Vec<(Vec<f64>, Column)>,
@@ -30,7 +32,7 @@ pub(super) struct Panels {
     parts: BTreeMap<String, Vec<Part>>,
 }
 
-/// Position of a channel's component: its panel and line, or its value if it is constant.
+/// Position of a channel's component: its panel and line; for a constant component its value instead.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(untagged)]
 enum Part {
@@ -87,12 +89,12 @@ pub(super) struct Curve<'a> {
     pub(super) values: &'a [f64],
 }
 
-/// Rule that selects the points of a line that are drawn.
+/// Rule for the choice of the points of a line that are drawn.
 #[derive(Debug, Clone, Copy)]
 enum Thinning {
     /// Peaks of both signs.
     Peaks,
-    /// Upper envelope, because the minima of a residual between its peaks have no meaning.
+    /// Upper envelope, for residuals. The minima of a residual between its peaks have no meaning.
     Edge,
 }
 
@@ -158,7 +160,7 @@ impl Panels {
         panel.frame.clone()
     }
 
-    /// Adds a band to a panel: times, and the smallest and largest value at each time. Peaks of both edges are kept.
+    /// Adds a band to a panel, given by times and the smallest and largest value at each time. Peaks of both edges are kept.
     pub(super) fn add_band(
         &mut self,
         frame: &PlotFrame,
@@ -172,7 +174,7 @@ impl Panels {
         self.panels[frame.panel].band = Some(Band { t, low: columns[0], high: columns[1] });
     }
 
-    /// Returns the indices of the points that are kept for two columns: the peaks of both.
+    /// Returns the indices of the points at the peaks of either of two columns.
     fn kept_of_both(&self, columns: [&[f64]; 2]) -> Vec<usize> {
         let mut indices = columns.map(|column| kept(column, self.most / 2)).concat();
         indices.sort_unstable();
@@ -180,7 +182,7 @@ impl Panels {
         indices
     }
 
-    /// Adds a line over another column; the peaks of both columns are kept.
+    /// Adds a line over another column. The points at the peaks of both columns are kept.
     fn over(&self, (curve, across): (&Curve<'_>, &[f64]), values: &[f64], pack: &mut Pack) -> Line {
         let indices = self.kept_of_both([across, values]);
         let of = |all: &[f64]| -> Vec<f64> { indices.iter().map(|i| all[*i]).collect() };
@@ -189,8 +191,8 @@ impl Panels {
         Line { name: curve.name.to_owned(), t, x: Some(columns[0]), y: columns[1] }
     }
 
-    /// Adds plots of channels. A vector gets a panel for each unit. Scalar channels with the same unit are drawn in one panel, unless their
-    /// ranges differ too much. Returns the frames of the plots, and the constant components with name, value and unit.
+    /// Adds plots of channels. A vector has a panel for each unit. Scalar channels with the same unit are drawn in one panel, unless their
+    /// ranges differ too much. Returns the frames of the plots. Also returns the constant components, each with name, value and unit.
     pub(super) fn add_channels(
         &mut self,
         channels: &[ChannelSeries],
@@ -246,7 +248,7 @@ impl Panels {
         self.parts.entry(channel.to_owned()).or_default().push(part);
     }
 
-    /// Returns the forces and moments that are channels, with their points, and the lines of their components.
+    /// Returns the drawn forces and moments that have channels, with their points and with the lines of their components.
     pub(super) fn forces(&self, places: &[DrawnForce]) -> Vec<Value> {
         let force = |at: &DrawnForce| {
             let DrawnForce { point, axes } = at;
@@ -339,7 +341,7 @@ fn logarithms(values: &[f64]) -> Vec<f64> {
     values.iter().map(|x| if *x > 0.0 { x.log10() } else { f64::NAN }).collect()
 }
 
-/// Returns the range of the finite values and the largest absolute value; infinity and zero if there are none.
+/// Returns the range of the finite values and the largest absolute value. Returns infinity and zero if no value is finite.
 fn extent(values: &[f64]) -> (f64, f64) {
     let of = |[low, high]: [f64; 2]| (high - low, low.abs().max(high.abs()));
     ends(values).map_or((f64::INFINITY, 0.0), of)

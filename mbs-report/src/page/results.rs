@@ -9,9 +9,10 @@ use mbs::results::{Difference, ResultTable, difference_over_time, envelope};
 use mbs_scene::format::{few, rounded, significant};
 use serde_json::{Value, json};
 
-/// Digits of the numbers in the table of peaks.
+/// Number of digits in the table of peaks.
 const DIGITS: usize = 6;
-/// Number of panels above which lines have fewer points, so that the page is smaller than four megabytes [-].
+/// Largest number of panels with full lines [-]. On a page with more panels, lines have fewer points, so that the page is smaller than four
+/// megabytes.
 const MANY_PANELS: usize = 200;
 
 /// Returns the number of points of a line on a page with `n_panels` panels [-].
@@ -19,7 +20,8 @@ fn points(n_panels: usize) -> usize {
     (MAX_POINTS * MANY_PANELS / n_panels.max(MANY_PANELS)).max(16)
 }
 
-/// Writes a page of plots: each column over time, or the second over the first, with a line for each run that has the column.
+/// Writes a page of plots. Each column is drawn over time, or the second column over the first. A plot has a line for each run with that
+/// column.
 #[must_use]
 pub fn plots_page(
     runs: &[(String, ResultTable)],
@@ -38,7 +40,8 @@ pub fn plots_page(
     .html()
 }
 
-/// Returns plots of columns of several runs over time, each with the band of all runs, and their panels for the pack.
+/// Returns plots of columns of several runs over time, each with the band between the smallest and largest value of all runs. Also returns
+/// their panels for the pack.
 pub(super) fn banded_frames(
     runs: &[(String, ResultTable)],
     names: &[String],

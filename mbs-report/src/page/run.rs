@@ -12,11 +12,11 @@ use crate::table::{Section, row};
 use mbs::record::{RealtimeSummary, RunRecord};
 use serde_json::json;
 
-/// Size of the data of a page at most, as text [bytes]. With its scripts the page is then smaller than four megabytes.
+/// Largest size of the data of a page, as text [bytes]. With its scripts the page is then smaller than four megabytes.
 const MAX_PACK: usize = 3_600_000;
-/// Pictures of the motion at most [-]: as many as a run records.
+/// Largest number of pictures of the motion [-]. A run records as many.
 const MAX_PICTURES: usize = 600;
-/// Halvings of pictures and points before the data are accepted at any size [-].
+/// Largest number of halvings of pictures and points [-]. After them the data are accepted at any size.
 const HALVINGS: u32 = 5;
 /// Labels of the summary that are shown at the top of the page.
 const FIGURES: [&str; 5] = [
@@ -37,8 +37,8 @@ struct Drawn {
 
 /// Writes the page of a run: one HTML file without references to other files.
 ///
-/// Series are thinned to at most 1500 points per line. The smallest and largest value of every interval are kept, so that peaks remain
-/// visible. Numbers that are not finite leave gaps. Lines have a resolution of 1/65000 of their range.
+/// Series are thinned to at most 1500 points per line. The smallest and largest value of every interval remain, so that peaks are visible.
+/// Numbers that are not finite appear as gaps. Lines have a resolution of 1/65000 of their range.
 ///
 /// # Examples
 /// ```
@@ -142,7 +142,7 @@ fn drawn(record: &RunRecord, meshes: &PageMeshes, [pictures, points]: [usize; 2]
     Drawn { pack, view, plots, health: vec![PageSection::Plots(health)] }
 }
 
-/// Returns sentences on parts of the view that are not obvious.
+/// Returns sentences that explain parts of the view that are not obvious.
 fn caption(record: &RunRecord) -> String {
     let motion = record.motion.as_ref();
     let has_traces = motion.is_some_and(|motion| !motion.traces.is_empty());

@@ -32,11 +32,11 @@ const VIEW_SCRIPTS: [&str; 4] = [
 /// Script of pages with diagrams.
 const DIAGRAM_SCRIPT: &str = include_str!("web/diagram.js");
 
-/// Notes that are shown at the top of a page [-]. Further notes are folded, so that a phone shows the motion without scrolling. Chosen, not
-/// tuned.
+/// Number of notes that are shown at the top of a page [-]. Further notes are folded, so that a phone shows the motion without scrolling.
+/// Chosen, not tuned.
 const OPEN_NOTES: usize = 3;
 
-/// HTML of the line keys, and of buttons that show groups of lines.
+/// HTML of the line keys, and of the buttons that show groups of lines.
 const KEYS: &str =
     "<div class=\"keys\" id=\"keys\"></div><div class=\"controls\" id=\"groups\"></div>";
 
@@ -52,7 +52,7 @@ pub(crate) struct Page {
 /// Section of a page. Texts and tables are HTML without scripts; a script draws the view and the plots from the page's pack.
 #[derive(Debug)]
 pub(crate) enum PageSection {
-    /// Reason why the page has less than was required.
+    /// Error because of which the page has less content than was required.
     Error(String),
     /// Notes for the reader.
     Notes(Vec<String>),
@@ -62,7 +62,7 @@ pub(crate) enum PageSection {
     View(String),
     /// Plots over time.
     Plots(Vec<PlotFrame>),
-    /// Keys of the lines of all diagrams, if no diagram has them.
+    /// Keys of the lines of all diagrams, for a page on which no diagram has them.
     Keys,
     /// Diagrams drawn from the page's pack.
     Diagrams(Vec<DiagramFrame>),
@@ -95,7 +95,7 @@ pub(crate) struct DiagramFrame {
     pub(crate) place: (&'static str, usize),
     pub(crate) title: String,
     pub(crate) caption: String,
-    /// Is the diagram as wide as the page, with the keys of all lines?
+    /// True if the diagram is as wide as the page and has the keys of all lines.
     pub(crate) has_keys: bool,
 }
 
@@ -140,7 +140,7 @@ impl Page {
 }
 
 impl PageSection {
-    /// Creates a section from a table, folded under its title if the table is marked so.
+    /// Creates a section from a table. The section is folded under the table's title if the table is marked so.
     pub(crate) fn of(section: Section) -> Self {
         if !section.is_folded {
             return Self::Table(section);
@@ -213,7 +213,7 @@ impl PageSection {
     }
 }
 
-/// Returns the list of notes, of which the first are shown and the others folded.
+/// Returns the list of notes. The first notes are shown and the others are folded.
 fn list_of_notes(notes: &[String]) -> String {
     let items: Vec<_> = notes.iter().map(|note| format!("<li>{}</li>", escape(note))).collect();
     // a fold with one note needs as much space as the note

@@ -5,12 +5,12 @@ use crate::table::Section;
 use mbs::record::ChannelSeries;
 use mbs::scene_file::format::significant;
 
-/// Rows of the table that are shown without folding, at most [-]: the height of a screen. Chosen, not tuned.
+/// Largest number of rows of the table that are shown without folding [-]. They fill the height of a screen. Chosen, not tuned.
 const MAX_OPEN: usize = 24;
-/// Digits of a time in the table [-]: a thousandth of a percent of a run.
+/// Number of digits of a time in the table [-]. They resolve a thousandth of a percent of a run.
 const TIME_DIGITS: usize = 5;
 
-/// Returns the table of extremes with their times, and of root mean squares, for all channels; folded if it is long.
+/// Returns the table of extremes with their times, and of root mean squares, for all channels. A long table is folded.
 pub(super) fn section(channels: &[ChannelSeries]) -> Option<PageSection> {
     let rows: Vec<_> = channels.iter().flat_map(rows).collect();
     let n = rows.len();

@@ -11,15 +11,16 @@ use mbs_scene::format::{duration, few};
 use mbs_study::sweep::{Columns, Report};
 use serde_json::json;
 
-/// Diagrams that are not folded, at most [-]: a screen or two.
+/// Largest number of diagrams that are not folded [-]. They fill a screen or two.
 const MAX_OPEN: usize = 12;
-/// Points of all diagrams at most [-], so that the page is smaller than four megabytes. Chosen, not tuned.
+/// Largest number of points of all diagrams together [-]. The page is then smaller than four megabytes. Chosen, not tuned.
 const MAX_POINTS: usize = 24_000;
-/// Rows of the table of members at most, and cells of the tables within it [-]. Beyond these the page refers to the file with all members.
+/// Largest number of rows of the table of members, and of cells of the tables within it [-]. If there are more, the page refers to the file
+/// with all members.
 const MAX_ROWS: [usize; 2] = [500, 24_000];
 /// Ratio of the largest to the smallest value above which a positive parameter has a logarithmic axis [-].
 const MANY_TIMES: f64 = 50.0;
-/// Names of the three numbers for each column of the outputs.
+/// Names of the three results that each column of the outputs has.
 const NUMBERS: [&str; 3] = ["at the end", "least", "largest"];
 
 /// Writes the page of a sweep: one HTML file without references to other files. `traces` are the results of some members, with their names.
@@ -131,7 +132,8 @@ fn diagrams(columns: &Columns, report: &Report) -> Vec<Diagram> {
     diagrams
 }
 
-/// Returns a table with a row for each member: its number, parameters, status and final outputs. A row opens to all other data of the member.
+/// Returns a table with a row for each member: its number, parameters, status and final outputs. An opened row shows all other data of the
+/// member.
 fn members(columns: &Columns, report: &Report) -> OpenRows {
     let header = columns.header();
     let mut shown = vec![0];

@@ -1,4 +1,4 @@
-//! Tests of pages: a page contains its data and refers to nothing outside.
+//! Tests of pages: a page contains its data and refers to no other file or address.
 
 use super::pack::tests::unpacked;
 use crate::page;
@@ -88,7 +88,7 @@ fn peaks_survive_and_gaps_are_gaps() {
     let (header, groups) = data(&page(&record()));
     let lines = header["panels"][0]["lines"].as_array().unwrap();
     let y = numbers(&lines[0]["y"], &groups);
-    // the peak is the largest value and thus the end of the column's range, which is packed exactly
+    // the peak is the largest value, so it is the end of the column's range, which is packed exactly
     let peak = y.iter().copied().fold(0.0, f64::max);
     assert!(y.len() <= 1500 && (peak - 9.876_54).abs() < 1e-9, "{} points, {peak}", y.len());
     let gaps = &header["panels"][1]["lines"][0]["y"];
@@ -228,7 +228,7 @@ fn lists_of_uneven_length_do_not_panic() {
 #[test]
 fn a_page_of_noise_stays_below_four_megabytes_and_says_what_it_left_out() {
     let times: Vec<f64> = (0..1500).map(f64::from).collect();
-    // random values: none can be packed in less than the two bytes of a step
+    // random values: each needs the two bytes of a step, so the pack cannot become smaller
     let noise = |seed: u32| -> Vec<f64> {
         let mut x = seed;
         let next = |_| {
@@ -300,7 +300,7 @@ fn the_rear_wheels_stand_on_the_drawn_road_at_the_start_and_at_the_landing_behin
     let settings = mbs::ResolvedMethod::new(&scene, &asked).expect("settings");
     let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     let (header, groups) = data(&page(&outcome.record(Provenance::default())));
-    // each tire carries 3593 N at rest and has a stiffness of 460000 N/m, which gives 7.8 mm
+    // each tire carries 3593 N at rest and has a stiffness of 460000 N/m, which gives a compression of 7.8 mm
     let (still, _) = rear_gaps(&header["motion"], &groups, 0.0);
     assert!(still.iter().all(|gap| (gap + 0.0078).abs() < 1e-3), "{still:?}");
     // at the landing each tire carries three times this force
@@ -403,7 +403,7 @@ fn a_mesh_is_drawn_and_one_that_cannot_be_read_is_a_note_with_the_inertia_in_its
     ] {
         assert!(html.contains(note), "{note}");
     }
-    // the cells for a large ground are so wide that a small part has no triangles left: it is drawn by its inertia instead
+    // the cells for a large ground are so wide that all triangles of a small part vanish: its inertia is drawn instead
     std::fs::write(folder.join("small.obj"), "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nf 1 2 3\n")
         .expect("a file");
     let text = "[scene]\ndimension = 3\nduration = 0.1\n".to_owned()

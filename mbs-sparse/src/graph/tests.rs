@@ -1,5 +1,5 @@
-//! Orders by approximate minimum degree are those of another program. The hashes below are those of the orders that faer 0.24 gives for the
-//! same graphs (`sparse::linalg::amd::order` with its default control).
+//! Orders by approximate minimum degree are the same as those of faer 0.24 (`sparse::linalg::amd::order` with its default control). The
+//! hashes below are those of faer's orders for the same graphs.
 
 use super::{Lists, index, minimum_degree, neighbours, ordered_by_amd};
 
@@ -39,7 +39,7 @@ fn draw(state: &mut u64, n: usize) -> usize {
     (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize % n
 }
 
-/// Returns `n_elements` elements of up to `largest` nodes each, within a distance `reach` of a first node.
+/// Returns `n_elements` elements of up to `largest` nodes each. The nodes of an element are within a distance `reach` of its first node.
 fn random(
     state: &mut u64,
     n: usize,

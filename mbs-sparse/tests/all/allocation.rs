@@ -54,7 +54,7 @@ fn a_saddle_without_delays_never_allocates() {
 
 #[test]
 fn a_saddle_with_delays_allocates_at_most_once() {
-    // Since the analysis does not know which unknowns are multipliers, it places them too early.
+    // This analysis does not know which unknowns are multipliers. So it places them too early.
     let mut saddle = Saddle::chain((60, 12, 6), 5, 3);
     saddle.n_primal = saddle.sum.n;
     let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());

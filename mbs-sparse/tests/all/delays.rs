@@ -3,8 +3,8 @@
 use crate::common::{Forking, Saddle};
 use mbs_sparse::{Alone, Indefinite, Options, Ordering, SymmetricSolver, Team};
 
-/// Returns saddle systems with known multipliers, and the same ones with multipliers unknown to the analysis. In the latter many multipliers
-/// are placed before their coordinates, so that their pivots are delayed.
+/// Returns saddle systems in two forms. In one, the analysis knows the multipliers. In the other, it does not, and places many multipliers
+/// before their coordinates, so that their pivots are delayed.
 fn saddles() -> Vec<(String, Saddle)> {
     let mut light = Saddle::chain((20, 9, 3), 3, 5);
     light.remove_mass(|u| u % 6 == 4);

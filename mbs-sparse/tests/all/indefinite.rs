@@ -12,7 +12,7 @@ use proptest::prelude::*;
 const BACKWARD: f64 = 1e-12;
 /// Allowed residual of a stable factorisation in single precision, relative to |T| |x| [-].
 const BACKWARD_F32: f64 = 5e-4;
-/// Allowed error of the components of a null vector [-], which comes from a pivot of some units of rounding.
+/// Allowed error of the components of a null vector [-]. The error comes from a pivot of a few rounding units.
 const NULL: f64 = 1e-10;
 
 fn every_option() -> [Options; 2] {
@@ -114,7 +114,7 @@ fn a_regular_saddle_delays_nothing() {
 
 #[test]
 fn coordinates_without_mass_that_rows_determine_are_solved() {
-    // Every fourth coordinate loses its mass; the rows of its element determine it.
+    // Every fourth coordinate has no mass. The rows of its element determine it.
     for rows in [2, 3] {
         let mut saddle = Saddle::chain((20, 9, 3), rows, 5);
         saddle.remove_mass(|u| u % 6 == 4);
@@ -178,7 +178,7 @@ fn a_row_that_three_others_add_up_to_is_refused() {
 #[test]
 fn a_coordinate_that_nothing_determines_is_named() {
     let mut saddle = Saddle::chain((8, 6, 2), 1, 5);
-    // Coordinate 9 is in element 2 only, and in no row of it.
+    // Coordinate 9 is in element 2 only, and no row of that element contains it.
     saddle.remove_mass(|u| u == 9);
     saddle.clear_rows_at(9);
     for options in every_option() {

@@ -4,8 +4,8 @@ use crate::common::{Random, Sum, dense_solve};
 use mbs_sparse::{Multifrontal, Options, Pivoting, SpdSolver};
 use proptest::prelude::*;
 
-/// Allowed difference of two solutions, relative to the largest entry [-]: a condition below 1e3 times EPSILON, with a margin for 100
-/// unknowns.
+/// Allowed difference of two solutions, relative to the largest entry [-]. It is a condition number below 1e3 times EPSILON, with a margin
+/// for 100 unknowns.
 const AGREE: f64 = 1e-11;
 /// Allowed difference of two solutions in single precision, relative to the largest entry [-].
 const AGREE_F32: f64 = 2e-3;

@@ -40,7 +40,7 @@ impl Stiff {
         Self { masses, rows, penalty: self.penalty }
     }
 
-    /// Returns T x with the digits of a double-double number.
+    /// Returns the product T x in double-double numbers.
     fn times(&self, x: &[Pair]) -> Vec<Pair> {
         let mut b = vec![Pair::ZERO; x.len()];
         for e in 0..self.n_elements() {
@@ -129,7 +129,8 @@ fn known(n: usize) -> Vec<Pair> {
     (0..n).map(|_| Pair::from_f64(random.next()) / Pair::from_f64(3.0)).collect()
 }
 
-/// Returns the error allowed for a backward stable solution in double-double: condition times EPSILON, with a margin for the size of the sum.
+/// Returns the error allowed for a backward stable solution in double-double: the condition number times EPSILON, with a margin for the
+/// size of the sum.
 fn bound(penalty: f64) -> f64 {
     100.0 * penalty * Pair::EPSILON.to_f64()
 }
@@ -213,7 +214,7 @@ fn one_correction_has_the_digits_of_the_factor_and_too_few_are_said_to_be() {
     let b = sum.times(&x);
     let (got, told) = solve(&refined(&sum, 1), &b);
     let off = distance(&got, &x);
-    // The error is about the condition 1e6 times EPSILON of `f64`; a smaller one by chance is excluded.
+    // The expected error is the condition number 1e6 times EPSILON of `f64`. The lower limit excludes an error that is smaller by chance.
     assert!(told == Ok(1) && (1e-17..1e-8).contains(&off), "{told:?} {off:e}");
 
     let solver = refined(&sum, 2);

@@ -4,7 +4,7 @@
 use crate::common::{Random, Sum};
 use mbs_sparse::{Counters, Multifrontal, Options, Pivoting, SpdSolver};
 
-/// Allowed relative difference of pivots, which are sums of a hundred products at most [-].
+/// Allowed relative difference of pivots, which are sums of at most a hundred products [-].
 const ROUNDING: f64 = 1e-11;
 
 fn counters(sum: &Sum) -> Counters {

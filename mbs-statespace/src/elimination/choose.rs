@@ -7,8 +7,8 @@
 //! ```
 //!
 //! A threshold relative to the whole remaining matrix, rather than to one row or column, reveals the rank. The matrix is a list of entries
-//! linked along rows and columns. An entry belongs to the pattern even where its number is zero. Therefore the order found is valid for other
-//! numbers too.
+//! linked along rows and columns. An entry belongs to the pattern even if its value is zero. Therefore the order found is valid for other
+//! values too.
 
 use super::pattern::{Pattern, index};
 use alloc::vec;
@@ -36,7 +36,7 @@ pub(super) struct Chooser<T> {
     pub(super) entries: Vec<Entry<T>>,
     pub(super) row_heads: Vec<u32>,
     column_heads: Vec<u32>,
-    /// Remaining entries in each row and column.
+    /// Number of remaining entries in each row and column.
     row_counts: Vec<u32>,
     column_counts: Vec<u32>,
     /// Size of the largest remaining entry in each row.
@@ -44,7 +44,7 @@ pub(super) struct Chooser<T> {
     /// The elimination step of each row and column.
     pub(super) row_steps: Vec<u32>,
     pub(super) column_steps: Vec<u32>,
-    /// Entry of the current row in each column.
+    /// Index of the entry of the current row in each column.
     at: Vec<u32>,
 }
 
@@ -94,7 +94,7 @@ impl<T: Real> Chooser<T> {
         }
     }
 
-    /// Returns the entry at an index with this index; none at the end of a row's list.
+    /// Returns an index with the entry that it refers to; `None` at the end of a row's list.
     pub(super) fn along(&self, at: u32) -> Option<(u32, Entry<T>)> {
         (at != NONE).then(|| (at, self.entries[at as usize]))
     }
@@ -111,7 +111,7 @@ impl<T: Real> Chooser<T> {
         self.row_sizes[row] = size;
     }
 
-    /// Returns the row and size of the largest remaining entry.
+    /// Returns the row and the size of the largest remaining entry.
     pub(super) fn rest(&self) -> (u32, T) {
         let mut best = (0, T::ZERO);
         for (r, (&size, &step)) in self.row_sizes.iter().zip(&self.row_steps).enumerate() {

@@ -66,8 +66,8 @@ impl<T: Real> Elimination<T> {
         found
     }
 
-    /// Solves J_d x_d = b. `b` has an entry for each row and is read at the pivot rows. `x` has an entry for each column and is written at
-    /// the dependent ones. `scratch` has r entries or more.
+    /// Solves J_d x_d = b. `b` has an entry for each row; only the pivot rows are read. `x` has an entry for each column; only the
+    /// dependent columns are written. `scratch` has at least r entries, where r is the rank.
     pub fn solve(&self, b: &[T], x: &mut [T], scratch: &mut [T]) {
         let y = &mut scratch[..self.rank];
         for k in 0..self.rank {
@@ -86,8 +86,8 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// Solves J_d^T y = b. `b` has an entry for each column and is read at the dependent ones. `y` has an entry for each row, zero at the
-    /// dropped ones. `scratch` has r entries or more.
+    /// Solves J_d^T y = b. `b` has an entry for each column; only the dependent columns are read. `y` has an entry for each row, and is
+    /// zero for dropped rows. `scratch` has at least r entries, where r is the rank.
     pub fn solve_transposed(&self, b: &[T], y: &mut [T], scratch: &mut [T]) {
         let x = &mut scratch[..self.rank];
         for k in 0..self.rank {
@@ -114,7 +114,7 @@ impl<T: Real> Elimination<T> {
         }
     }
 
-    /// Writes the rows of R of the dependent columns, -J_d^-1 J_i [P1 (21)]: r rows of n - r numbers, in the order of elimination. A
+    /// Writes the rows of R for the dependent columns, -J_d^-1 J_i [P1 (21)]: r rows of n - r numbers, in the order of elimination. A
     /// back-substitution with U is enough, because L is a factor of both J_d and J_i.
     pub fn write_basis(&self, basis: &mut [T]) {
         let f = self.pattern.n_columns - self.rank;

@@ -5,8 +5,8 @@
 //! R = [-J_d^-1 J_i; 1],      J R = 0                                                          [P1 (21)]
 //! ```
 //!
-//! [`Elimination::select_pivots`] finds the rank, the pivot rows and the dependent columns; [`Elimination::refactor`] repeats the
-//! arithmetic for new numbers in the same order. The pivot columns are the dependent unknowns, the others the independent ones.
+//! [`Elimination::select_pivots`] finds the rank, the pivot rows and the dependent columns. [`Elimination::refactor`] repeats the
+//! arithmetic for new numbers in the same order. The pivot columns are the dependent unknowns, the other columns are the independent ones.
 
 mod choose;
 mod factor;
@@ -30,7 +30,7 @@ pub struct Pivots<T> {
     pub smallest: T,
     /// Row of the smallest pivot.
     pub row: u32,
-    /// The smallest ratio of a pivot to its size at the last choice [-].
+    /// Smallest ratio of a pivot to the size of the same pivot at the last choice [-].
     pub decay: T,
 }
 
@@ -62,7 +62,7 @@ pub struct Elimination<T> {
     upper: Triangle<T>,
     /// Inverses 1 / pivot of all pivots.
     inverses: Vec<T>,
-    /// Scales of rows and columns at the last choice, and the sizes of the scaled pivots there.
+    /// Scales of rows and columns at the last choice, and the sizes of the scaled pivots at that choice.
     row_scales: Vec<T>,
     column_scales: Vec<T>,
     chosen: Vec<T>,
@@ -175,13 +175,13 @@ impl<T: Real> Elimination<T> {
     pub fn column_scale(&self, column: usize) -> T {
         self.column_scales[column]
     }
-    /// Entries of L and U together, the diagonal of U counted once.
+    /// Number of entries of L and U together. The diagonal of U is counted, that of L is not.
     #[must_use]
     pub fn n_entries(&self) -> usize {
         self.lower.places.len() + self.upper.places.len() + self.rank
     }
 
-    /// Reserves memory for factors of `entries` numbers, so that later choices need not allocate.
+    /// Reserves memory for factors with `entries` entries, so that later choices need not allocate.
     pub fn reserve(&mut self, entries: usize) {
         let m = self.pattern.n_rows();
         self.lower.reserve(m, entries);

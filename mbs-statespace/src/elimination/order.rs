@@ -39,7 +39,7 @@ impl<T: Real> Elimination<T> {
         if row_scales.len() != m || sizes.len() != rank || !are_distinct(pivots, [m, n]) {
             return false;
         }
-        // The entries depend on the pattern alone, so any numbers serve here.
+        // The entries depend on the pattern alone, so any values can be used here.
         let ones = vec![T::ONE; self.pattern.columns.len()];
         let (chooser, scales) = (&mut self.chooser, (&row_scales[..], &self.column_scales[..]));
         chooser.load(&self.pattern, &ones);
@@ -61,7 +61,7 @@ impl<T: Real> Elimination<T> {
     }
 }
 
-/// Does every row and column occur at most once, and lie within the matrix?
+/// True if every row and column occurs at most once and exists in the matrix.
 fn are_distinct(pivots: &[[u32; 2]], sizes: [usize; 2]) -> bool {
     [0, 1].into_iter().all(|side| {
         let mut is_taken = vec![false; sizes[side]];

@@ -2,7 +2,7 @@
 
 use mbs_statespace::elimination::{Elimination, Pattern};
 
-/// Rounding errors of about ten operations on numbers of order one, with pivots of 0.3 or more.
+/// Allowed rounding error of about ten operations on numbers of order one, with pivots of 0.3 or more.
 const ROUNDING: f64 = 1e-12;
 
 /// Generator of pseudo-random numbers in [-1, 1], the same on every machine (xorshift64*).
@@ -85,7 +85,7 @@ impl Sparse {
         x
     }
 
-    /// Computes the rank by dense Gauss-Jordan elimination with complete pivoting, on rows of unit length.
+    /// Computes the rank by dense Gauss-Jordan elimination with complete pivoting, after the rows are scaled to unit length.
     fn rank(&self) -> usize {
         let mut a: Vec<Vec<f64>> = vec![vec![0.0; self.n]; self.rows.len()];
         for (to, row) in a.iter_mut().zip(&self.rows) {
@@ -185,7 +185,8 @@ fn frozen_pivots_serve_other_numbers_of_the_pattern_even_where_some_were_zero() 
         if matrix.rank() < matrix.rows.len() {
             continue;
         }
-        // In the matrix that the pivots are chosen for, a third of the entries other than the first of each row are zero.
+        // The pivots are chosen for a matrix of the same pattern in which a third of the entries are zero. The first entry of each row is
+        // not.
         let mut thin = matrix.clone();
         for entry in thin.rows.iter_mut().flat_map(|row| row.iter_mut().skip(1)) {
             if random.below(3) == 0 {

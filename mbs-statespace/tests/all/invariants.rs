@@ -8,10 +8,10 @@ use mbs_testkit::retell::{turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, GUIDED, REDUNDANT, SLIDER, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{PLANAR, SPATIAL, apart, scene, scene_in};
 
-/// Growth of rounding errors over some hundred steps of a regular motion [m].
+/// Allowed growth of rounding errors over some hundred steps of a regular motion [m].
 const ROUNDING: f64 = 1e-9;
 
-/// Returns the largest entries of J R, over all rows including the dropped ones, and of R.
+/// Returns two numbers: the largest entry of J R over all rows including the dropped ones, and the largest entry of R.
 fn null_space_error<const D: usize>(bench: &Bench<f64, D>) -> (f64, f64) {
     let (model, e) = (&bench.model, bench.w.elimination());
     let f = e.independent().len();
@@ -54,7 +54,7 @@ fn the_basis_spans_the_null_space_of_all_rows() {
 fn check_rechoice<const D: usize>(text: &str, dt: f64, steps: u32) {
     let mut plain = Bench::<f64, D>::new(text);
     let mut forced = Bench::<f64, D>::new(text);
-    // The tolerance is machine precision, since otherwise each step would leave an error that depends on the choice.
+    // The tolerance is machine precision. With a larger tolerance, each step would leave an error that depends on the choice.
     (plain.options.tolerance, forced.options.tolerance) = (1e-14, 1e-14);
     forced.options.pivot_change = PivotChange::EveryStep;
     let (mut sets, mut last) = (0, Vec::new());
@@ -153,7 +153,7 @@ fn the_geometric_stiffness_saves_iterations_and_changes_nothing_else() {
     };
     let ((with, q), (without, printed)) = (run(true), run(false));
     assert!(with < without, "{with} {without}");
-    // The iterations of both end at 1e-10 of the step's displacement of 1e-4 m.
+    // The iterations of both forms end at 1e-10 of the displacement in a step, which is 1e-4 m.
     assert!(apart(&q, &printed) < 1e-9);
 }
 
@@ -172,11 +172,11 @@ fn a_fully_guided_mechanism_has_no_unknowns() {
 
 #[test]
 fn a_start_at_the_singular_position_is_refused() {
-    // Cranks of the two four-bars flat on the ground: three instantaneous freedoms instead of one.
+    // The cranks of the two four-bars lie along the ground. The mechanism then has three instantaneous freedoms instead of one.
     let text = &TWO_FOUR_BARS;
     let mut bench = Bench::<f64, 2>::new(text);
     let (usual, n) = (bench.w.elimination().rank(), bench.model.n_unknowns());
-    // The unknowns are the ends of the cranks; they are turned by a quarter turn.
+    // The unknowns are the ends of the cranks, which are rotated by a quarter turn.
     for x in bench.state.q[..n].chunks_exact_mut(2) {
         (x[0], x[1]) = (x[0] + 1.0, 0.0);
     }

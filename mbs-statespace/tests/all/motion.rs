@@ -8,7 +8,7 @@ use mbs_testkit::scenes::{
 };
 use mbs_testkit::{PLANAR, SPATIAL, apart, retell, scene};
 
-/// Position of a mass on a bar of 1 m, 1 s after its release from the horizontal, by elliptic functions [m].
+/// Position of a mass on a bar of 1 m, 1 s after the release from the horizontal, by elliptic functions [m].
 const PENDULUM_AT_ONE: [f64; 2] = [-0.986_291_751_132, -0.165_010_853_126];
 
 const PENDULUM: &str = "[scene]\nname = \"pendulum\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"bob\"\nmass = 1.0\ncenter = [1.0, 0.0]\ninertia = 0.0\n[[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [0.0, 0.0]\n";
@@ -36,7 +36,8 @@ fn every_integrator_is_of_second_order_on_the_pendulum_in_both_coordinates() {
                 })
             };
             let ratio = error(1e-3) / error(5e-4);
-            // With chosen columns, a change of columns falls on another position when the step changes, and the error changes with it.
+            // With chosen columns, the position at which the columns change depends on the step. So the error does not fall smoothly with
+            // the step.
             let width = if coordinates == Coordinates::Tangent { 0.05 } else { 0.5 };
             assert!((ratio - 4.0).abs() < width, "{coordinates:?} {integrator:?}: {ratio}");
         }
@@ -62,7 +63,8 @@ fn double_pendulum_keeps_its_energy_as_the_trapezoidal_rule_can() {
     }
 }
 
-/// Checks that state space and index-3 agree within ten times the larger of their errors, which are estimated from runs with dt and dt / 2.
+/// Checks that state space and index-3 agree within ten times the larger of their errors. The errors are estimated from runs with dt and dt
+/// / 2.
 fn agrees<const D: usize>(text: &str, dt: f64, steps: u32) {
     let mut coarse = Bench::<f64, D>::new(text);
     coarse.run(dt, steps);
@@ -73,7 +75,7 @@ fn agrees<const D: usize>(text: &str, dt: f64, steps: u32) {
     let error = apart(ours, finer).max(apart(&theirs.q, &their_finer.q)) * 4.0 / 3.0;
     let difference = apart(ours, &theirs.q);
     let name = &coarse.scene.name;
-    // The term 1e-12 covers rounding errors of the positions: a guided mechanism has no other error.
+    // The term 1e-12 covers rounding errors of the positions. A guided mechanism has no other error.
     assert!(difference <= 10.0 * error + 1e-12, "{name}: {difference:e} against {error:e}");
     // The error must be small enough that a wrong motion would be detected.
     assert!(error < 0.02, "{name}: error {error:e}");
@@ -121,8 +123,8 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one() {
     plane.run(dt, steps);
     let (space, plane) = (space.centers(&space.state), plane.centers(&plane.state));
     for ((name, a), (_, b)) in space.iter().zip(&plane) {
-        // Both integrate in the metric of the mass, which is the same in both. Only rounding errors differ, after growing for a thousand
-        // steps.
+        // Both runs integrate in the metric of the mass, which is the same in both. The results differ only by rounding errors, which grow
+        // over a thousand steps.
         let [x, y, off] = retell::in_plane(*a);
         let difference = apart(&[x, y], &b[..2]).max(off.abs());
         assert!(difference < 1e-9, "{name}: {a:?} {b:?} {difference:e}");
@@ -173,7 +175,7 @@ fn bennetts_linkage_keeps_the_rank_of_its_start() {
     assert!(!bench.w.elimination().dropped_rows().is_empty(), "its hinges are redundant");
     bench.options.pivot_change = mbs_statespace::PivotChange::EveryStep;
     for _ in 0..1000 {
-        // The dropped rows hold too, although only the exact lengths of the links allow the motion.
+        // The dropped rows are also satisfied, although only the exact lengths of the links allow the motion.
         let report = bench.try_step(1e-3).unwrap();
         assert!(report.violation[0] < 1e-13, "{:?}", report.violation);
     }

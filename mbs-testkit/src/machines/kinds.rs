@@ -101,7 +101,7 @@ fn gears(of: Parts, kind: usize) -> Machine {
     Machine { what, joints, coupling, slip }
 }
 
-/// Creates a machine with two wheels and a belt, of which one straight strand runs from rim to rim.
+/// Creates a machine with two wheels and a belt. One straight strand of the belt runs from rim to rim.
 fn belt(of: Parts, is_crossed: bool) -> Machine {
     let d = of.r1 + of.r2 + 0.5;
     let r2 = if is_crossed { -of.r2 } else { of.r2 };
@@ -173,7 +173,7 @@ fn screw(of: Parts) -> Machine {
     }
 }
 
-/// Creates a differential: two wheels and a cage, with both wheels on the frame or one of them on the cage.
+/// Creates a differential of two wheels and a cage. Both wheels are on the frame, or one of them is on the cage.
 fn differential(of: Parts, is_on_cage: bool) -> Machine {
     let own = if is_on_cage { "cage" } else { "frame" };
     Machine {
@@ -201,7 +201,7 @@ fn winch(of: Parts) -> Machine {
         what: "winch",
         joints: vec![of.one(), Drawn { axis: ACROSS, ..slide("two", ["frame", "two"], weight) }],
         coupling: Box::new(move |wording| {
-            // the rope below the rim becomes longer as the drum rotates in the negative sense about z
+            // the rope below the rim becomes longer when the drum rotates in the negative sense about z
             let radius = of.r1 * wording.metre * wording.sense("one");
             format!(
                 "{LINK}\nkind = \"rope\"\npoints = [{{ body = \"frame\", at = {:?} }}, {{ body = \"two\", at = {:?} }}]\n\
@@ -219,7 +219,7 @@ fn winch(of: Parts) -> Machine {
     }
 }
 
-/// Creates a wheel that rolls without slip: on a cart along the frame, or on an arm over a tilting plank.
+/// Creates a wheel that rolls without slip. It is on a cart along the frame, or on an arm over a tilting plank.
 fn wheel(of: Parts, is_on_plank: bool) -> Machine {
     let line = plus(of.one, -of.r1, Y);
     let (what, joints, on) = if is_on_plank {
@@ -245,12 +245,12 @@ fn wheel(of: Parts, is_on_plank: bool) -> Machine {
     Machine { what, joints, coupling, slip: touching(["one", on], line, X) }
 }
 
-/// Number of the kinds of machines with a coupling; they come first.
+/// Number of the kinds of machines with a coupling. These kinds have the first indices.
 pub const COUPLED: usize = 15;
-/// Number of all kinds of machines. Those after the coupled ones have a rolling contact.
+/// Number of all kinds of machines. The kinds after the coupled ones have a rolling contact.
 pub const KINDS: usize = 17;
 
-/// Creates a machine of a kind with parts of random sizes, on a rotating frame on a sliding base.
+/// Creates a machine of a kind with parts of random sizes. The machine is on a rotating frame, and the frame on a sliding base.
 ///
 /// # Panics
 /// Never.

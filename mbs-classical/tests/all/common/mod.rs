@@ -55,7 +55,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         }
     }
 
-    /// Makes `n` steps, none of which may fail.
+    /// Makes `n` steps of the run. Panics if one of them fails.
     #[track_caller]
     pub(crate) fn steps(mut self, dt: f64, n: usize) -> Self {
         for i in 0..n {

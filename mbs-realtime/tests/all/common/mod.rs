@@ -1,4 +1,4 @@
-//! A scripted clock, and work of scripted durations that advances it.
+//! A scripted clock, and work of scripted durations that advances the clock.
 
 use core::cell::Cell;
 use core::ops::ControlFlow;

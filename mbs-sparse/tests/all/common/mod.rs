@@ -47,14 +47,15 @@ impl Sum {
         Self { n, cliques, blocks, residuals }
     }
 
-    /// Creates a chain of `length` elements of `size` unknowns; neighbours have `overlap` unknowns in common.
+    /// Creates a chain of `length` elements of `size` unknowns. Consecutive elements have `overlap` unknowns in common.
     pub(crate) fn chain(length: usize, size: usize, overlap: usize) -> Self {
         let pitch = size - overlap;
         let clique = |e: usize| (0..size).map(|i| (e * pitch + i) as u32).collect();
         Self::random(length * pitch + overlap, (0..length).map(clique).collect(), 1)
     }
 
-    /// Creates a star: `branches` chains of `length` elements of 12 unknowns, overlapping by 6, at a common hub of 12 unknowns.
+    /// Creates a star: `branches` chains that meet at a common hub of 12 unknowns. Each chain has `length` elements of 12 unknowns that
+    /// overlap by 6.
     pub(crate) fn star(branches: usize, length: usize) -> Self {
         let mut cliques = vec![(0..12).collect::<Vec<u32>>()];
         let mut n = 12_u32;

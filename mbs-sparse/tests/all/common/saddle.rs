@@ -17,7 +17,7 @@ fn packed(k: usize, row: usize, col: usize) -> usize {
 }
 
 impl Saddle {
-    /// Adds `rows` random rows over its coordinates to every element of `sum`.
+    /// Adds random constraint rows to every element of `sum`: `rows` rows over the coordinates of the element.
     fn with_rows(sum: Sum, rows: usize, seed: u64) -> Self {
         let n_primal = sum.n;
         let mut saddle = Self { sum, n_primal };
@@ -32,7 +32,7 @@ impl Saddle {
         saddle
     }
 
-    /// Creates a chain of (length, size, overlap) with `rows` rows in each element.
+    /// Creates a chain (length, size, overlap), as `Sum::chain` does, with `rows` constraint rows in each element.
     pub(crate) fn chain(
         (length, size, overlap): (usize, usize, usize),
         rows: usize,
@@ -77,7 +77,7 @@ impl Saddle {
             .collect()
     }
 
-    /// Adds a copy of the first row of element `e`, times `factor`. Returns both multipliers.
+    /// Adds a copy of the first row of element `e`, times `factor`. Returns the multipliers of the first row and of the copy.
     pub(crate) fn repeat_row(&mut self, e: usize, factor: f64) -> (u32, u32) {
         let (first, row) = self.rows_of(e).swap_remove(0);
         let row: Vec<f64> = row.iter().map(|x| x * factor).collect();
