@@ -41,27 +41,27 @@ pub struct Method {
     pub integrator: Option<String>,
     /// Precision of the numbers.
     pub precision: Option<String>,
-    /// Length of a step; with step control, length of the first step [s].
+    /// Length of a step; of the first one where lengths are controlled [s].
     pub step: Option<f64>,
-    /// Largest length of a step, and interval of recorded rows [s].
+    /// Longest step, and the distance of recorded rows [s].
     pub step_max: Option<f64>,
     /// Rule for the length of steps.
     pub step_control: Option<String>,
-    /// Limits U and L of the change of the energy invariant in a step, relative to the energy that moves.
+    /// Limits U and L of the invariant's change in a step, relative to the energy that moves.
     pub energy_tolerance: Option<[f64; 2]>,
     /// Tolerance of the estimated local error of a step, relative to the scene's length.
     pub error_tolerance: Option<f64>,
-    /// True if steps end where contacts begin or end, and at kinks of the road and of signals.
+    /// Whether steps end where contacts begin or end, and at kinks of the road and of signals.
     pub events: Option<bool>,
-    /// Largest allowed error of the energy invariant, relative to the exchanged energy. The run stops if the error is larger.
+    /// Largest error of the energy invariant, relative to the exchanged energy; beyond it the run stops.
     pub energy_alarm: Option<f64>,
     /// Duration of the run [s].
     pub duration: Option<f64>,
-    /// Fixed penalty alpha of the augmented Lagrangian, as published [N/m; index-1: kg].
+    /// Fixed penalty of the augmented Lagrangian, the printed alpha [N/m; index-1: kg].
     pub penalty: Option<f64>,
-    /// Tolerance of the iterations, relative to the displacement that accelerations cause in a step.
+    /// Tolerance of the iterations, relative to the displacement by accelerations in a step.
     pub tolerance: Option<f64>,
-    /// Number of threads of a step.
+    /// Threads that share the work of a step.
     pub threads: Option<usize>,
     /// Interrupt that ends the run from outside.
     pub interrupt: Interrupt,

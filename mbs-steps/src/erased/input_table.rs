@@ -21,7 +21,7 @@ use mbs_scene::{Place, nearest_name};
 /// let table = InputTable::new([0.0, 1.0], [("load", vec![0.0, 2.5])]);
 /// assert!(m.following(&table)?.to_toml()?.contains("table = [[0.0, 0.0], [1.0, 2.5]]"));
 /// let same = InputTable::csv(b"t,load\n0,0\n1,2.5\n", "load.csv");
-/// assert!(m.following(&same)?.to_toml()?.contains("[1, 2.5]"));
+/// assert!(m.following(&same)?.to_toml()?.contains("[1.0, 2.5]"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
