@@ -10,7 +10,7 @@ use crate::space::Space;
 use crate::step::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::step::{explicit, trapezoidal};
 use mbs_core::Real;
-use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau};
+use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
 use mbs_core::step::{Step, StepError, StepReport};
 
 /// Method of a step.
@@ -143,32 +143,38 @@ fn make<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {
     let Explicit { y, scratch, pair, eighth, extrapolation, radau } = scratch;
-    let (n, first) = (y.len(), options.first_step.unwrap_or(dt));
+    let n = y.len();
     let memory = (start, &mut y[..], &mut scratch[..]);
     match method {
         TreeMethod::Trapezoidal => trapezoidal::step(m, inputs, (dt, options), (memory.0, aux), s),
         TreeMethod::Rk4 => explicit::rk4(m, inputs, (dt, options), memory, s),
         TreeMethod::Rk54 => {
-            let new = || Adaptive::new(Tableau::dormand_prince(), first);
-            let driver = pair.get_or_insert_with(new);
+            let driver = driver(pair, (dt, options), Tableau::dormand_prince);
             explicit::controlled(m, inputs, (dt, options, driver), memory, s)
         }
         TreeMethod::Rk853 => {
-            let new = || Adaptive::new(Tableau::dormand_prince_8(), first);
-            let driver = eighth.get_or_insert_with(new);
+            let driver = driver(eighth, (dt, options), Tableau::dormand_prince_8);
             explicit::controlled(m, inputs, (dt, options, driver), memory, s)
         }
         TreeMethod::Extrapolation => {
-            let new = || Adaptive::new(Extrapolation::for_tolerance(options.error), first);
-            let driver = extrapolation.get_or_insert_with(new);
+            let new = || Extrapolation::for_tolerance(options.error);
+            let driver = driver(extrapolation, (dt, options), new);
             explicit::controlled(m, inputs, (dt, options, driver), memory, s)
         }
         TreeMethod::Radau5 => {
-            let new = || Adaptive::new(Radau::new(n, m.n_coordinates), first);
-            let driver = radau.get_or_insert_with(new);
+            let driver = driver(radau, (dt, options), || Radau::new(n, m.n_coordinates));
             explicit::controlled(m, inputs, (dt, options, driver), memory, s)
         }
     }
+}
+
+/// Returns the driver of a method with error control. Its first call makes the driver, which then remembers the length of its steps.
+fn driver<'a, T: Real, M: Method<T>>(
+    known: &'a mut Option<Adaptive<T, M>>,
+    (dt, options): (T, &Options<T>),
+    method: impl FnOnce() -> M,
+) -> &'a mut Adaptive<T, M> {
+    known.get_or_insert_with(|| Adaptive::new(method(), options.first_step.unwrap_or(dt)))
 }
 
 /// Copies the result of a step into the state.

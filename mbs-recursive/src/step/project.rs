@@ -100,18 +100,17 @@ pub(crate) fn onto_loops<T: Real, S: Space<T>>(
     if m.loops.rows.is_empty() {
         return Ok([T::ZERO; 2]);
     }
-    let mut enough = m.length * T::from_f64(NEARING);
-    for _ in 1..MAX_CLOSINGS {
+    let (mut enough, mut left) = (m.length * T::from_f64(NEARING), MAX_CLOSINGS);
+    loop {
         accelerations(m, options, Level::Once, s)?;
+        left -= 1;
         match project(m, (options, rounding()), s) {
-            Err(Fault::Unreached { level: 0, violation, .. }) if violation < enough => {
+            Err(Fault::Unreached { level: 0, violation, .. }) if left > 0 && violation < enough => {
                 enough = violation * T::HALF;
             }
             done => return done,
         }
     }
-    accelerations(m, options, Level::Once, s)?;
-    project(m, (options, rounding()), s)
 }
 
 /// Projects the positions and velocities of the store until their violations are at most the fraction `share` of their scales. Returns the
