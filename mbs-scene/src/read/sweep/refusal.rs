@@ -29,7 +29,7 @@ impl fmt::Display for SweepRefusal {
         match self {
             Self::File(error) => error.fmt(f),
             Self::Numbers { path, fault } if path.is_empty() => fault.fmt(f),
-            Self::Numbers { path, fault } => write!(f, "{path}: {fault}"),
+            Self::Numbers { path, fault } => write!(f, "`{path}`: {fault}"),
         }
     }
 }
