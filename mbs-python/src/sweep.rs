@@ -81,18 +81,14 @@ impl sweep::Watch for Watched<'_> {
 impl Sweep {
     fn make(
         mechanism: &Bound<'_, Mechanism>,
-        source: Source,
+        (file, folder): (SceneFile, Option<PathBuf>),
         settings: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let py = mechanism.py();
         let (method, _) = settings::method(settings)?;
         let (method, flag) = settings::interruptible(method);
-        let (text, name, folder) = &source;
-        let file = match folder {
-            Some(folder) => SceneFile::parse_in(text, name, folder),
-            None => SceneFile::parse(text, name),
-        };
-        let file = file.map_err(|error| unread(py, &error))?.into();
+        let source = (file.text().to_owned(), file.file().to_owned(), folder);
+        let file = file.into();
         let scene = mechanism.get().shared.file.clone();
         let study =
             guarded(py, || Study::new(scene, &file, &method).map_err(|error| refused(py, error)))?;
@@ -191,7 +187,13 @@ pub(crate) fn _restore_sweep(
     source: Source,
     settings: &Bound<'_, PyDict>,
 ) -> PyResult<Sweep> {
-    Sweep::make(mechanism, source, settings)
+    let (text, name, folder) = source;
+    let file = match &folder {
+        Some(folder) => SceneFile::parse_in(&text, &name, folder),
+        None => SceneFile::parse(&text, &name),
+    };
+    let file = file.map_err(|error| unread(mechanism.py(), &error))?;
+    Sweep::make(mechanism, (file, folder), settings)
 }
 
 #[pymethods]
@@ -244,8 +246,8 @@ impl Mechanism {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let threads = count(py, "threads", threads)?;
-        let unnamed = |text| (text, "sweep".to_owned(), None);
-        let source = match spec.cast::<PyString>() {
+        let unnamed = |text: String| (SceneFile::parse(&text, "sweep"), None);
+        let (file, folder) = match spec.cast::<PyString>() {
             Ok(text) if text.to_string().contains('\n') => unnamed(text.to_string()),
             Err(_) if spec.hasattr("keys")? => unnamed(value::json(spec, "spec")?),
             _ => {
@@ -253,13 +255,12 @@ impl Mechanism {
                     let message = format!("a sweep is made of no {}", spec.get_type());
                     usage(py, "wrong-type", &message, "give a path, a text, or a dict", "spec")
                 })?;
-                let file = SceneFile::read(&path).map_err(|error| unread(py, &error))?;
-                let folder = path.parent().map(Path::to_owned);
-                (file.text().to_owned(), file.file().to_owned(), folder)
+                (SceneFile::read(&path), path.parent().map(Path::to_owned))
             }
         };
+        let file = file.map_err(|error| unread(py, &error))?;
         let settings = settings.map_or_else(|| Ok(PyDict::new(py)), |settings| settings.copy())?;
-        let sweep = Sweep::make(slf, source, &settings)?;
+        let sweep = Sweep::make(slf, (file, folder), &settings)?;
         let columns = sweep.columns();
         let rows = match client {
             Some(client) => {
